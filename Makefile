@@ -1,0 +1,70 @@
+# Development tasks: `make` lists them. Everything is installed in .venv and nowhere else, so a plain machine with
+# make and python3 (3.11 or newer, with its venv module) is enough. To use another interpreter, which is then kept:
+#
+#   make PYTHON=python3.12 test
+
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.stamp
+UNFINISHED := $(VENV)/.unfinished
+OUT := out/reproduce
+
+# Without PYTHON=, an environment that is there keeps the interpreter it was made with.
+ifeq ($(origin PYTHON),undefined)
+PYTHON := $(or $(shell sed -n 2p $(STAMP) 2>/dev/null),python3)
+endif
+
+# The stamp, written last, holds the folder (an environment does not survive a move) and the interpreter. When they
+# differ, or the interpreter has gone or changed its version, the environment is made anew.
+STAMP_TEXT = printf '%s\n' "$(CURDIR)" "$(PYTHON)"
+FRESH := $(shell $(BIN)/python -c 'import pip' 2>/dev/null && $(STAMP_TEXT) | cmp -s - $(STAMP) && echo yes)
+
+.DEFAULT_GOAL := help
+.PHONY: help env reproduce reproduce-fast test test-long clean FORCE
+
+help: ## list these targets
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 # \2/p' $(MAKEFILE_LIST) | awk -F' # ' '{ printf "%-23s %s\n", $$1, $$2 }'
+
+env: $(STAMP) ## make .venv, with mjcont (editable) and the tools, at the versions in constraints.txt
+
+reproduce: env ## draw the paper's figures and check its findings, in out/reproduce
+	$(BIN)/mjcont reproduce -o $(OUT)
+
+reproduce-fast: env ## the figures that take seconds only
+	$(BIN)/mjcont reproduce 3 5 -o $(OUT)
+
+test: env ## lint, types and tests
+	$(BIN)/ruff check
+	$(BIN)/mypy
+	$(BIN)/pytest -q -n auto
+
+test-long: env ## the tests that take minutes
+	$(BIN)/pytest -q -n auto -m "long and not thirdparty"
+
+clean: ## remove .venv, builds and caches; results in out/ stay
+	@if test -e $(STAMP) || test -e $(UNFINISHED); then rm -f $(STAMP) && rm -rf $(VENV); fi
+	rm -rf build dist *.egg-info .mypy_cache .pytest_cache .ruff_cache
+	find mjcont scripts tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
+
+$(STAMP): pyproject.toml constraints.txt $(if $(FRESH),,FORCE)
+	@fail() { echo "mjcont: $$*" >&2; exit 1; }; \
+	command -v "$(PYTHON)" >/dev/null || \
+	  fail "no command '$(PYTHON)': install Python 3.11 or newer (on Debian: python3 and python3-venv), or name one with 'make PYTHON=...'"; \
+	version=$$("$(PYTHON)" -c 'import sys; print("%d.%d" % sys.version_info[:2])' 2>/dev/null) || \
+	  fail "'$(PYTHON)' does not run: name a working Python 3.11 or newer with 'make PYTHON=...'"; \
+	"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  fail "Python 3.11 or newer is needed, and '$(PYTHON)' is $$version: name a newer one with 'make PYTHON=...'"; \
+	test ! -e $(VENV) || test -e $(STAMP) || test -e $(UNFINISHED) || \
+	  fail "$(VENV) was not made by this Makefile: move it away, or use another folder with 'make VENV=.venv-make ...'"; \
+	"$(PYTHON)" -c 'import ensurepip, venv' 2>/dev/null || \
+	  fail "'$(PYTHON)' has no venv module: on Debian and Ubuntu, install the package python$$version-venv"; \
+	trap 'test -e $(STAMP) || rm -rf $(VENV)' EXIT; trap 'exit 130' HUP INT TERM; \
+	rm -f $(STAMP) && rm -rf $(VENV) && mkdir $(VENV) && touch $(UNFINISHED) || exit 1; \
+	said=$$("$(PYTHON)" -m venv $(VENV) 2>&1) || \
+	  fail "'$(PYTHON) -m venv' failed; on Debian and Ubuntu, the package python$$version-venv brings what it needs ($$(echo "$$said" | tail -n 1))"; \
+	echo "installing mjcont and its tools in $(VENV), with Python $$version"; \
+	$(BIN)/python -m pip install --quiet --no-input --disable-pip-version-check -c constraints.txt -e '.[dev]' || \
+	  fail "installing did not finish, and $(VENV) is removed: see pip's message above, then run make again"; \
+	$(STAMP_TEXT) >$(STAMP) && rm $(UNFINISHED)
+
+FORCE:
