@@ -1,0 +1,50 @@
+"""Every error that a user of mjcont can cause, and how their messages list the valid choices.
+
+Failure of the numerics is not here: a branch that cannot go on says so in its status.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class MjcontError(Exception):
+    """Base of all errors that mjcont raises on purpose."""
+
+
+class ModelError(MjcontError):
+    """A model file that cannot be read, compiled, or treated as an equilibrium problem."""
+
+
+class NameLookupError(MjcontError):
+    """A name that the model does not have; the message lists those it has."""
+
+
+class ParameterError(MjcontError):
+    """A parameter declaration or value that does not fit the model."""
+
+
+class BoundsError(MjcontError):
+    """Bounds that are empty, exclude the start, or leave the range of a control."""
+
+
+class StartError(MjcontError):
+    """No equilibrium was found from the given start."""
+
+
+class StudyError(MjcontError):
+    """A study file with a wrong key, type or value."""
+
+
+class ResultFileError(MjcontError):
+    """A result file that cannot be read or does not fit the given problem."""
+
+
+def unknown_name(kind: str, name: str, valid: Iterable[str]) -> NameLookupError:
+    """Return the error for `name`, which is not among `valid`: close matches first, then the whole list."""
+    choices = sorted(valid)
+    close = difflib.get_close_matches(name, choices, n=3, cutoff=0.6)
+    hint = f" Did you mean {' or '.join(close)}?" if close else ""
+    listing = ", ".join(choices) if choices else "none"
+    return NameLookupError(f"unknown {kind} '{name}'.{hint} Valid: {listing}.")

@@ -1,0 +1,213 @@
+"""Reading MJCF into models that a Mechanism can own: sources, refusals, private copies, and a readable summary."""
+
+from __future__ import annotations
+
+import copy
+import math
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+
+from mjcont.errors import ModelError
+from mjcont.observables import without_sensor_filters
+
+if TYPE_CHECKING:
+    from mjcont.mechanism import Mechanism
+
+_JOINT = mujoco.mjtJoint
+_DISABLE = mujoco.mjtDisableBit
+
+
+def models_folder() -> Path:
+    """Return the folder of the models that ship with mjcont: in the wheel, or beside the package in a checkout."""
+    package = Path(str(resources.files("mjcont")))
+    installed = package / "models_xml"
+    return installed if installed.is_dir() else package.parent / "models_xml"
+
+
+def shipped_models() -> list[str]:
+    """Return the names of the models that ship with mjcont."""
+    return sorted(p.stem for p in models_folder().glob("*.xml"))
+
+
+def read_source(source: str | Path) -> tuple[str, Path | None]:
+    """Return the XML text of a path, of a shipped model's name, or of text itself, and its folder."""
+    if isinstance(source, str) and source.lstrip().startswith("<"):
+        return source, None
+    path = Path(source)
+    if not path.is_file() and path.parent == Path() and not path.suffix:
+        path = models_folder() / f"{path.name}.xml"
+    if not path.is_file():
+        shipped = ", ".join(shipped_models()) or "none"
+        what = "is a folder, not a file" if Path(source).is_dir() else "no such file"
+        raise ModelError(f"model '{source}': {what}. Models that ship with mjcont: {shipped}.")
+    try:
+        return path.read_text(encoding="utf-8"), path.resolve().parent
+    except (UnicodeDecodeError, OSError) as error:
+        raise ModelError(f"model '{source}' cannot be read as text: {error}") from error
+
+
+def parse(text: str, folder: Path | None, label: str) -> mujoco.MjSpec:
+    """Return the spec of an XML text; relative files are looked up in `folder`."""
+    try:
+        spec = mujoco.MjSpec.from_string(text)
+    except (ValueError, mujoco.FatalError) as error:
+        raise ModelError(f"model {label}: MuJoCo rejects it: {_one_line(error)}") from error
+    if folder is not None:
+        spec.modelfiledir = str(folder)
+    return spec
+
+
+def compile_spec(spec: mujoco.MjSpec) -> mujoco.MjModel:
+    """Compile a spec, turning MuJoCo's error into ours."""
+    try:
+        return spec.compile()
+    except (ValueError, mujoco.FatalError) as error:
+        raise ModelError(f"model '{spec.modelname}': MuJoCo cannot compile it: {_one_line(error)}") from error
+
+
+def portable_text(spec: mujoco.MjSpec, text: str) -> str:
+    """Return XML that stands alone: the text as written, or flattened where it includes other files."""
+    return spec.to_xml() if "<include" in text else text
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split())
+
+
+def copy_model(model: mujoco.MjModel) -> mujoco.MjModel:
+    """Return a copy that can be edited freely."""
+    return copy.copy(model)
+
+
+def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
+    """Return the private copy on which residuals are evaluated.
+
+    Its integrator is one for which qacc is the forward-dynamics acceleration, sensors are off, and controls are
+    never clamped (bounds outside a ctrlrange are refused before).
+    """
+    private = copy_model(model)
+    private.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
+    private.opt.disableflags |= int(_DISABLE.mjDSBL_SENSOR) | int(_DISABLE.mjDSBL_CLAMPCTRL)
+    without_sensor_filters(model)
+    return private
+
+
+def refuse_unsupported(model: mujoco.MjModel) -> None:
+    """Raise a ModelError for features whose equilibria this version cannot compute, saying what to do instead."""
+    off = int(model.opt.disableflags)
+    constraints = not off & _DISABLE.mjDSBL_CONSTRAINT
+    if model.nv == 0:
+        raise ModelError("the model has no degree of freedom")
+    if model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP:
+        raise ModelError('sleeping bodies make equilibria path dependent: remove <flag sleep="enable"/>')
+    if np.any(model.jnt_springyield > 0) or np.any(model.tendon_springyield > 0):
+        raise ModelError("plastic springs (springyield) make equilibria path dependent: set springyield to 0")
+    if model.na:
+        raise ModelError("actuators with activation states (muscle, filter, integrator) are not supported yet")
+    if constraints and model.neq and not off & _DISABLE.mjDSBL_EQUALITY:
+        raise ModelError("equality constraints are not supported yet: replace them by bushes (stiff springs)")
+    if constraints and not off & _DISABLE.mjDSBL_LIMIT and (model.jnt_limited.any() or model.tendon_limited.any()):
+        raise ModelError('joint or tendon limits are not supported yet: remove them or set <flag limit="disable"/>')
+    if constraints and not off & _DISABLE.mjDSBL_FRICTIONLOSS and _has_friction(model):
+        raise ModelError("dry friction (frictionloss) carries no load at rest in MuJoCo: remove it")
+    if constraints and not off & _DISABLE.mjDSBL_CONTACT and _can_touch(model):
+        raise ModelError('contacts are not supported yet: set <flag contact="disable"/> or contype="0" conaffinity="0"')
+
+
+def _has_friction(model: mujoco.MjModel) -> bool:
+    return bool(np.any(model.dof_frictionloss > 0) or np.any(model.tendon_frictionloss > 0))
+
+
+def _can_touch(model: mujoco.MjModel) -> bool:
+    """Return whether two geoms of different bodies could collide, parent and child apart."""
+    kind, affinity, body = model.geom_contype, model.geom_conaffinity, model.geom_bodyid
+    parent = model.body_parentid
+    for i in range(model.ngeom):
+        for j in range(i):
+            a, b = model.body_weldid[body[i]], model.body_weldid[body[j]]
+            related = a == b or (a and b and (parent[a] == b or parent[b] == a))
+            if not related and (kind[i] & affinity[j] or kind[j] & affinity[i]):
+                return True
+    return model.npair > 0
+
+
+def model_name(model: mujoco.MjModel) -> str:
+    """Return the name in the MJCF's root element."""
+    return bytes(model.names[: model.names.index(b"\0")]).decode() or "model"
+
+
+def coordinates_are_flat(model: mujoco.MjModel) -> bool:
+    """Whether qpos is a vector space: slides and hinges only."""
+    return bool(np.all(np.isin(model.jnt_type, [_JOINT.mjJNT_SLIDE, _JOINT.mjJNT_HINGE])))
+
+
+def state_scale(model: mujoco.MjModel) -> np.ndarray:
+    """Return the typical size of each tangent coordinate: 1 rad, or the model's size in metres, (nv,)."""
+    size = float(model.stat.extent)
+    if not math.isfinite(size) or size <= 0:
+        size = 1.0
+    scale = np.ones(model.nv)
+    for j in range(model.njnt):
+        start = model.jnt_dofadr[j]
+        if model.jnt_type[j] == _JOINT.mjJNT_SLIDE:
+            scale[start] = size
+        elif model.jnt_type[j] == _JOINT.mjJNT_FREE:
+            scale[start : start + 3] = size
+    return scale
+
+
+def keyframes(model: mujoco.MjModel) -> dict[str, np.ndarray]:
+    """Return the positions of the model's keyframes by name."""
+    names = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_KEY, k) or f"key{k}" for k in range(model.nkey)]
+    return {name: model.key_qpos[k].copy() for k, name in enumerate(names)}
+
+
+def state_labels(model: mujoco.MjModel) -> list[tuple[str, str]]:
+    """Return name and unit of each entry of qpos."""
+    parts = {
+        _JOINT.mjJNT_SLIDE: [("", "m")],
+        _JOINT.mjJNT_HINGE: [("", "rad")],
+        _JOINT.mjJNT_BALL: [(f".q{i}", "") for i in range(4)],
+        _JOINT.mjJNT_FREE: [(f".{c}", "m") for c in "xyz"] + [(f".q{i}", "") for i in range(4)],
+    }
+    labels = []
+    for j in range(model.njnt):
+        name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, j) or f"joint{j}"
+        labels += [(name + suffix, unit) for suffix, unit in parts[_JOINT(model.jnt_type[j])]]
+    return labels
+
+
+def _table(rows: list[list[str]]) -> list[str]:
+    widths = [max(len(r[k]) for r in rows) for k in range(len(rows[0]))]
+    return ["  " + "  ".join(c.ljust(w) for c, w in zip(r, widths, strict=True)).rstrip() for r in rows]
+
+
+def _number(value: float, unit: str) -> str:
+    if not math.isfinite(value):
+        return "-" if value < 0 else "+"
+    return f"{math.degrees(value):.6g} deg" if unit == "rad" else f"{value:.6g}"
+
+
+def describe(mechanism: Mechanism) -> str:
+    """Return what `mjcont inspect` prints."""
+    m: Any = mechanism
+    kinds = {"control": "control", "gravity": "gravity", "field": "model field"}
+    lines = [f"{m.name}: {m.n} degrees of freedom, {len(m.bushes)} bush elements"]
+    rows = [["name", "value", "unit", "from", "to", "acts on"]]
+    for p in m.parameters.values():
+        acts = kinds[p.kind] if p.kind != "field" else " ".join(t.path for t in p.targets)
+        unit = "deg" if p.unit == "rad" else p.unit
+        cells = [_number(v, p.unit).removesuffix(" deg") for v in (p.value, *p.bounds)]
+        rows.append([p.name, cells[0], unit, cells[1], cells[2], acts])
+    lines += ["", "parameters", *_table(rows)]
+    values = m.measure(m.qpos0[None], m.values())[0]
+    rows = [["name", "at qpos0", "unit"]]
+    for o, v in zip(m.observables.values(), values, strict=True):
+        rows.append([o.name, _number(v, o.unit).removesuffix(" deg"), "deg" if o.unit == "rad" else o.unit])
+    lines += ["", "observables", *_table(rows)]
+    lines += ["", "starts", "  qpos0", *(f"  keyframe {k}" for k in m.keyframes)]
+    return "\n".join(lines)

@@ -1,0 +1,395 @@
+"""`Mechanism`: the sole owner of an MjModel/MjData pair, seen as an equilibrium problem.
+
+The residual is M(q) qacc at zero velocity (`qfrc_smooth`), the equations of motion near an equilibrium are
+
+    M dq'' + C dq' + K dq = 0,   K = -d tau/dq,  C = -d tau/dv,
+
+with centred differences in the tangent space, all columns in one batched call. A Mechanism never remembers
+parameter values: they are arguments of every method.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from mujoco.batch import Batch
+
+from mjcont import loading
+from mjcont.errors import BoundsError, NameLookupError, ParameterError, unknown_name
+from mjcont.numerics.differences import PARAMETER, jacobian_from_rows, jacobian_steps, stencil
+from mjcont.numerics.problem import Array, Linearization, Pencil, Values
+from mjcont.observables import Observable, model_observables
+from mjcont.parameters import (
+    Declaration,
+    FieldWriter,
+    Gravity,
+    Parameter,
+    control_parameter,
+    controls,
+    declarations,
+    gravity_parameters,
+    is_bush,
+    make_parameter,
+)
+
+_MAX_BATCHES = 32
+
+
+class Mechanism:
+    """A MuJoCo model as an equilibrium problem f(q, p) = 0 with named parameters and observables.
+
+    Use `Mechanism.from_xml`, `from_spec` or `from_model` to make one.
+
+    Attributes
+    ----------
+    name : str
+    n : int
+        Degrees of freedom (nv).
+    parameters : dict of str to Parameter
+        Declared in the model, every control, gravity_angle and load_factor.
+    observables : dict of str to Observable
+        Every sensor and joint position.
+    keyframes : dict of str to (nq,) array
+    state_scale : (nv,) array
+        1 rad for rotations, the model's size in metres for translations.
+    evaluations : int
+        Forward evaluations so far; every row of a batch counts as one.
+    mjcf : str or None
+        The model's text; None for a Mechanism made from a compiled model.
+    """
+
+    second_order = True
+
+    def __init__(self, model: mujoco.MjModel, mjcf: str | None = None) -> None:
+        loading.refuse_unsupported(model)
+        self.mjcf = mjcf
+        self.name = loading.model_name(model)
+        self.nq, self.n = model.nq, model.nv
+        self.qpos0 = model.qpos0.copy()
+        self.evaluations = 0
+        self._observed = model
+        self._model = loading.evaluation_copy(model)
+        self._flat = loading.coordinates_are_flat(model)
+        self.state_scale = loading.state_scale(model)
+        self.parameters = _collect_parameters(self._model)
+        self.observables = model_observables(model)
+        self.keyframes = loading.keyframes(model)
+        gravity = Gravity.of(model)
+        self._writer = FieldWriter(self._model, self.parameters, gravity)
+        self._sensor_writer = FieldWriter(self._observed, self.parameters, gravity)
+        self._sensor_data = mujoco.MjData(self._observed)
+        self._batches: dict[int, _Rows] = {}
+        self._mass_data = mujoco.MjData(self._model)
+
+    # -- making one ----------------------------------------------------------------------------------------
+
+    @classmethod
+    def from_xml(cls, source: str | Path) -> Mechanism:
+        """Load MJCF from a path, from XML text, or by the name of a model that ships with mjcont.
+
+        Raises
+        ------
+        ModelError
+            If the file does not exist, MuJoCo rejects it, or the model has a feature that cannot be treated.
+        """
+        text, folder = loading.read_source(source)
+        spec = loading.parse(text, folder, str(source) if "<" not in str(source) else "XML text")
+        return cls(loading.compile_spec(spec), loading.portable_text(spec, text))
+
+    @classmethod
+    def from_spec(cls, spec: mujoco.MjSpec) -> Mechanism:
+        """Take an `MjSpec`; the spec itself is not kept."""
+        model = loading.compile_spec(spec)
+        return cls(model, spec.to_xml())
+
+    @classmethod
+    def from_model(cls, model: mujoco.MjModel) -> Mechanism:
+        """Take a compiled model (copied). Its results cannot carry the MJCF: load them with `problem=`."""
+        return cls(loading.copy_model(model))
+
+    # -- parameters ----------------------------------------------------------------------------------------
+
+    def declare(self, name: str, *paths: str, unit: str = "", bounds: tuple[float, float] | None = None) -> Parameter:
+        """Declare a named parameter that acts on the fields given by `paths` and return it.
+
+        Raises
+        ------
+        ParameterError
+            If a path matches nothing, or its targets disagree with each other in the loaded model.
+        """
+        parameter = make_parameter(self._model_as_loaded(), Declaration(name, unit, bounds, tuple(paths)))
+        self.parameters[name] = parameter
+        return parameter
+
+    def parameter(self, name: str) -> Parameter:
+        """Return the parameter called `name`; a path such as `joint:hip.stiffness` is one, too."""
+        if name not in self.parameters:
+            if ":" not in name:
+                raise unknown_name("parameter", name, self.parameters)
+            self.declare(name, name)
+        return self.parameters[name]
+
+    def values(self, given: Values | None = None) -> dict[str, float]:
+        """Return a value for every parameter: those given, the model's own for the others.
+
+        Raises
+        ------
+        NameLookupError
+            If a name is unknown; close matches and all valid names are listed.
+        BoundsError
+            If a control lies outside its range in the model, where MuJoCo would clamp it.
+        """
+        given = given or {}
+        for name, value in given.items():
+            parameter = self.parameter(name)
+            if not np.isfinite(value):
+                raise ParameterError(f"parameter '{name}': the value must be a finite number, got {value}")
+            low, high = parameter.hard_bounds
+            if not low <= value <= high:
+                raise BoundsError(
+                    f"{name} = {value:g} lies outside the actuator's ctrlrange [{low:g}, {high:g}], "
+                    "where MuJoCo would clamp it"
+                )
+        merged = {name: p.value for name, p in self.parameters.items()}
+        merged.update({name: float(v) for name, v in given.items()})
+        return merged
+
+    def _model_as_loaded(self) -> mujoco.MjModel:
+        self._writer.write(self.parameters, self.values())
+        return self._model
+
+    # -- residual and derivatives ----------------------------------------------------------------------------
+
+    def residual(self, x: Array, values: Values) -> Array:
+        """Return the generalised forces M qacc at rest, (nv,), in N and N m."""
+        self._writer.write(self.parameters, values)
+        return self._forces(x[None])[0].copy()
+
+    def residuals(self, x: Array, values: Values, steps: Array) -> Array:
+        """Return the residual at x moved by each row of `steps` (m, nv), shape (m, nv)."""
+        self._writer.write(self.parameters, values)
+        return self._forces(self._moved(x, steps)).copy()
+
+    def acceleration(self, qpos: Array, qvel: Array, values: Values | None = None) -> Array:
+        """Return qacc at a state of motion, (nv,), in m/s^2 and rad/s^2."""
+        self._writer.write(self.parameters, self.values(values))
+        rows = self._rows(1)
+        self._forces(np.asarray(qpos)[None], np.asarray(qvel)[None])
+        return rows.acceleration()[0].copy()
+
+    def linearize(self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False) -> Linearization:
+        """Return the residual with its derivatives in the state and in the parameters `wrt`."""
+        rule = stencil(accurate)
+        steps = jacobian_steps(self.state_scale, rule)
+        self._writer.write(self.parameters, values)
+        moved = np.concatenate([x[None], self._moved(x, steps)])
+        rows = self._forces(moved)
+        f = rows[0].copy()
+        jac = jacobian_from_rows(rows[1:], self.state_scale, rule)
+        par = np.empty((self.n, len(wrt)))
+        for k, name in enumerate(wrt):
+            par[:, k] = self._parameter_derivative(x, values, name)
+        self._writer.write(self.parameters, values)
+        return Linearization(f, jac, par)
+
+    def _parameter_derivative(self, x: Array, values: Values, name: str) -> Array:
+        """Return d tau/dp, (nv,): exact for controls, which act linearly; otherwise by a fourth-order difference."""
+        parameter, p = self.parameters[name], values[name]
+        if parameter.kind == "control":
+            offsets: tuple[float, ...] = (1.0, 0.0)
+            weights: tuple[float, ...] = (1.0, -1.0)
+            h = max(1.0, abs(p))
+        else:
+            offsets, weights = PARAMETER.offsets, PARAMETER.weights
+            h = PARAMETER.step * (abs(p) if abs(p) > 1e-6 else max(abs(b) for b in parameter.bounds))
+            h = min(h, PARAMETER.step) if parameter.unit == "rad" else h
+        total = np.zeros(self.n)
+        for offset, weight in zip(offsets, weights, strict=True):
+            self._writer.write(self.parameters, {name: p + offset * h})
+            total += weight * self._forces(x[None])[0]
+        return total / h
+
+    def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
+        """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
+        self._writer.write(self.parameters, values)
+        return Pencil(self._mass(x), self._damping(x), -jac)
+
+    def _mass(self, x: Array) -> Array:
+        data = self._mass_data
+        data.qpos[:] = x
+        mujoco.mj_fwdPosition(self._model, data)
+        dense = np.empty((self.n, self.n))
+        mujoco.mj_fullM(self._model, data, dense)
+        return dense
+
+    def _damping(self, x: Array) -> Array:
+        """Return -d tau/dv, centred; a unit step is exact for linear dampers."""
+        scale = self.state_scale
+        steps = np.concatenate([np.diag(scale), -np.diag(scale)])
+        rows = self._forces(np.broadcast_to(x, (2 * self.n, self.nq)), steps)
+        return ((rows[self.n :] - rows[: self.n]) / (2.0 * scale)[:, None]).T
+
+    def first_order(self, x: Array, values: Values, steps: Array) -> Array:
+        """Return (v, qacc) at steps (m, 2 nv) of position and velocity around rest at x, shape (m, 2 nv)."""
+        self._writer.write(self.parameters, values)
+        velocity = steps[:, self.n :]
+        self._forces(self._moved(x, steps[:, : self.n]), velocity)
+        return np.hstack([velocity, self._rows(len(steps)).acceleration()])
+
+    # -- the manifold ----------------------------------------------------------------------------------------
+
+    def retract(self, x: Array, step: Array) -> Array:
+        """Return qpos moved by a tangent step, quaternions normalised."""
+        if self._flat:
+            return x + step
+        moved = x.copy()
+        mujoco.mj_integratePos(self._model, moved, step, 1.0)
+        return moved
+
+    def difference(self, x1: Array, x0: Array) -> Array:
+        """Return the tangent step (nv,) from x0 to x1."""
+        if self._flat:
+            return x1 - x0
+        step = np.empty(self.n)
+        mujoco.mj_differentiatePos(self._model, step, 1.0, x0, x1)
+        return step
+
+    def _moved(self, x: Array, steps: Array) -> Array:
+        if self._flat:
+            return x + steps
+        return np.array([self.retract(x, s) for s in steps])
+
+    # -- evaluation ------------------------------------------------------------------------------------------
+
+    def _rows(self, count: int) -> _Rows:
+        rows = self._batches.get(count)
+        if rows is None:
+            if len(self._batches) >= _MAX_BATCHES:
+                self._batches.clear()
+            rows = self._batches[count] = _Rows(self._model, count)
+        return rows
+
+    def _forces(self, qpos: Array, qvel: Array | None = None) -> Array:
+        """Return qfrc_smooth for every row, a live view (m, nv)."""
+        self.evaluations += len(qpos)
+        return self._rows(len(qpos)).forward(qpos, qvel, self._writer)
+
+    # -- observables -----------------------------------------------------------------------------------------
+
+    def observe(self, name: str, function: Callable[[Any, Any], float], unit: str = "") -> None:
+        """Add an observable computed by `function(model, data)` from MuJoCo's model and data."""
+        self.observables[name] = Observable(name, unit, function)
+
+    def observable(self, name: str) -> Observable:
+        """Return the observable called `name`."""
+        if name not in self.observables:
+            raise unknown_name("observable", name, self.observables)
+        return self.observables[name]
+
+    def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
+        """Return observables at rest for states (m, nq), shape (m, number of names); default all of them."""
+        chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
+        out = np.empty((len(states), len(chosen)))
+        data = self._sensor_data
+        for i, x in enumerate(states):
+            self._sensor_writer.write(self.parameters, values if isinstance(values, Mapping) else values[i])
+            data.qpos[:] = x
+            data.qvel[:] = 0.0
+            data.ctrl[:] = self._sensor_writer.ctrl
+            mujoco.mj_forward(self._observed, data)
+            out[i] = [o.function(self._observed, data) for o in chosen]
+        return out
+
+    # -- states ----------------------------------------------------------------------------------------------
+
+    def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
+        """Return a start: the state given, or a keyframe's, or qpos0.
+
+        Raises
+        ------
+        NameLookupError
+            If there is no such keyframe.
+        ParameterError
+            If `state` has the wrong shape.
+        """
+        if state is not None:
+            x = np.array(state, dtype=float)
+            if x.shape != (self.nq,):
+                raise ParameterError(f"state must have shape ({self.nq},) for model '{self.name}', got {x.shape}")
+            return x
+        if keyframe is None:
+            return self.qpos0.copy()
+        if keyframe not in self.keyframes:
+            raise unknown_name("keyframe", keyframe, self.keyframes)
+        return self.keyframes[keyframe].copy()
+
+    @property
+    def state_labels(self) -> list[tuple[str, str]]:
+        """Name and unit of each entry of qpos."""
+        return loading.state_labels(self._model)
+
+    @property
+    def bushes(self) -> list[str]:
+        """Names of the bush actuators."""
+        names = [mujoco.mj_id2name(self._model, mujoco.mjtObj.mjOBJ_ACTUATOR, i) for i in range(self._model.nu)]
+        return [n for i, n in enumerate(names) if is_bush(self._model, i)]
+
+    def __str__(self) -> str:
+        """List what can be continued, what can be read, and where to start."""
+        return loading.describe(self)
+
+    def __repr__(self) -> str:
+        """Return a one-line description."""
+        return f"<Mechanism '{self.name}': {self.n} DOF, {len(self.parameters)} parameters>"
+
+
+class _Rows:
+    """A batch of a fixed number of rows, evaluated on one thread (waking a second costs more than it gives)."""
+
+    def __init__(self, model: mujoco.MjModel, count: int) -> None:
+        self._model = model
+        self._batch = Batch(model, count, nthread=1)
+        self._version = -1
+        self._qpos = self._batch.bind("qpos")
+        self._qvel = self._batch.bind("qvel")
+        self._ctrl = self._batch.bind("ctrl")
+        self._forces = self._batch.bind("qfrc_smooth")
+        self._acceleration = self._batch.bind("qacc")
+
+    def forward(self, qpos: Array, qvel: Array | None, writer: FieldWriter) -> Array:
+        if self._version != writer.version:
+            self._batch.set_models(self._model)
+            self._version = writer.version
+        self._qpos[:] = qpos
+        self._qvel[:] = 0.0 if qvel is None else qvel
+        self._ctrl[:] = writer.ctrl
+        self._batch.forward()
+        return self._forces
+
+    def acceleration(self) -> Array:
+        return self._acceleration
+
+
+def _collect_parameters(model: mujoco.MjModel) -> dict[str, Parameter]:
+    """Return declared parameters first, then controls, then gravity."""
+    found: dict[str, Parameter] = {}
+    reserved = {p.name for p in gravity_parameters()}
+    for declaration in declarations(model):
+        if any(path.startswith("sensor:") for path in declaration.paths):
+            continue
+        if declaration.name in found or declaration.name in reserved:
+            raise ParameterError(f"parameter '{declaration.name}' is declared twice")
+        try:
+            found[declaration.name] = make_parameter(model, declaration)
+        except NameLookupError as error:
+            raise ParameterError(f"parameter '{declaration.name}': {error}") from error
+    for name, index in controls(model).items():
+        if name not in found:
+            found[name] = control_parameter(model, name, index)
+    for parameter in gravity_parameters():
+        found[parameter.name] = parameter
+    return found

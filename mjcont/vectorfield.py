@@ -1,0 +1,175 @@
+"""Plain vector fields u' = f(u, p) as equilibrium problems: no MuJoCo involved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+
+from mjcont.errors import ParameterError, unknown_name
+from mjcont.numerics.differences import (
+    FOURTH_ORDER,
+    PARAMETER,
+    jacobian_from_rows,
+    jacobian_steps,
+)
+from mjcont.numerics.problem import Array, Linearization, Pencil, Values
+from mjcont.observables import Observable
+from mjcont.parameters import Parameter, default_bounds
+
+
+class VectorField:
+    """The first-order system u' = f(u, p) with named parameters.
+
+    Parameters
+    ----------
+    function : callable
+        `function(u, p)` returns (n,); `u` is (n,), `p` a mapping of parameter names to floats.
+    u0 : array_like, (n,)
+        Default start.
+    parameters : mapping of str to float
+        Names and default values.
+    jacobian : callable, optional
+        `jacobian(u, p)` returns df/du, (n, n), dense or scipy.sparse; centred differences otherwise.
+    names : sequence of str, optional
+        Names of the components of u, by which they are observables; default u[0], u[1], ...
+    units : mapping of str to str, optional
+        Units of parameters and components, by name.
+    scale : array_like, (n,), optional
+        Typical size of each component, for arclength and difference steps; default 1.
+    bounds : mapping of str to (low, high), optional
+        Default range of each parameter.
+    """
+
+    second_order = False
+    mjcf = None
+
+    def __init__(
+        self,
+        function: Callable[[Array, Values], Any],
+        u0: Any,
+        parameters: Mapping[str, float],
+        *,
+        jacobian: Callable[[Array, Values], Any] | None = None,
+        names: Sequence[str] | None = None,
+        units: Mapping[str, str] | None = None,
+        scale: Any = None,
+        bounds: Mapping[str, tuple[float, float]] | None = None,
+        name: str = "vector field",
+    ) -> None:
+        self.name = name
+        self.u0 = np.atleast_1d(np.array(u0, dtype=float))
+        self.n = len(self.u0)
+        self.function, self.jacobian = function, jacobian
+        self.state_scale = np.ones(self.n) if scale is None else np.array(scale, dtype=float)
+        self.evaluations = 0
+        units, bounds = units or {}, bounds or {}
+        self.parameters = {
+            k: Parameter(k, units.get(k, ""), float(v), bounds.get(k, default_bounds(float(v))), "field")
+            for k, v in parameters.items()
+        }
+        labels = list(names) if names is not None else [f"u[{i}]" for i in range(self.n)]
+        if len(labels) != self.n:
+            raise ParameterError(f"names: expected {self.n} names for the components of u, got {len(labels)}")
+        self.state_labels = [(label, units.get(label, "")) for label in labels]
+        self.observables = {
+            label: Observable(label, unit, _component(i)) for i, (label, unit) in enumerate(self.state_labels)
+        }
+        self.keyframes: dict[str, Array] = {}
+
+    def parameter(self, name: str) -> Parameter:
+        """Return the parameter called `name`."""
+        if name not in self.parameters:
+            raise unknown_name("parameter", name, self.parameters)
+        return self.parameters[name]
+
+    def values(self, given: Values | None = None) -> dict[str, float]:
+        """Return a value for every parameter: those given, the defaults for the others."""
+        for name, value in (given or {}).items():
+            self.parameter(name)
+            if not np.isfinite(value):
+                raise ParameterError(f"parameter '{name}': the value must be a finite number, got {value}")
+        return {n: p.value for n, p in self.parameters.items()} | {n: float(v) for n, v in (given or {}).items()}
+
+    def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
+        """Return the state given, or u0."""
+        if keyframe is not None:
+            raise unknown_name("keyframe", keyframe, self.keyframes)
+        x = self.u0.copy() if state is None else np.array(state, dtype=float)
+        if x.shape != (self.n,):
+            raise ParameterError(f"state must have shape ({self.n},), got {x.shape}")
+        return x
+
+    # -- the problem -----------------------------------------------------------------------------------------
+
+    def residual(self, x: Array, values: Values) -> Array:
+        """Return f, (n,)."""
+        self.evaluations += 1
+        return np.array(self.function(x, values), dtype=float).reshape(self.n)
+
+    def residuals(self, x: Array, values: Values, steps: Array) -> Array:
+        """Return f at x plus each row of `steps`, (m, n)."""
+        return np.array([self.residual(x + s, values) for s in steps])
+
+    def linearize(self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False) -> Linearization:
+        """Return f, df/du and df/dp (always by fourth-order differences where no Jacobian is given)."""
+        del accurate
+        f = self.residual(x, values)
+        if self.jacobian is not None:
+            jac = self.jacobian(x, values)
+            jac = sparse.csc_matrix(jac) if sparse.issparse(jac) else np.array(jac, dtype=float)
+        else:
+            steps = jacobian_steps(self.state_scale, FOURTH_ORDER)
+            jac = jacobian_from_rows(self.residuals(x, values, steps), self.state_scale, FOURTH_ORDER)
+        par = np.empty((self.n, len(wrt)))
+        for k, name in enumerate(wrt):
+            h = PARAMETER.step * max(abs(values[name]), 1e-2)
+            rows = [self.residual(x, {**values, name: values[name] + o * h}) for o in PARAMETER.offsets]
+            par[:, k] = np.asarray(PARAMETER.weights) @ np.array(rows) / h
+        return Linearization(f, jac, par)
+
+    def pencil(self, x: Array, values: Values, jac: Any) -> Pencil:
+        """Return the pencil of a first-order system: M = 0, C = I, K = -df/du."""
+        del x, values
+        return Pencil(None, None, -jac)
+
+    def first_order(self, x: Array, values: Values, steps: Array) -> Array:
+        """Return f at x plus each row of `steps`."""
+        return self.residuals(x, values, steps)
+
+    def retract(self, x: Array, step: Array) -> Array:
+        """Return x + step."""
+        return x + step
+
+    def difference(self, x1: Array, x0: Array) -> Array:
+        """Return x1 - x0."""
+        return x1 - x0
+
+    # -- observables -----------------------------------------------------------------------------------------
+
+    def observe(self, name: str, function: Callable[[Array, Values], float], unit: str = "") -> None:
+        """Add an observable computed by `function(u, p)`."""
+        self.observables[name] = Observable(name, unit, lambda values, x: function(x, values))
+
+    def observable(self, name: str) -> Observable:
+        """Return the observable called `name`."""
+        if name not in self.observables:
+            raise unknown_name("observable", name, self.observables)
+        return self.observables[name]
+
+    def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
+        """Return observables for states (m, n), shape (m, number of names)."""
+        chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
+        per_row = [values] * len(states) if isinstance(values, Mapping) else values
+        return np.array([[o.function(v, x) for o in chosen] for x, v in zip(states, per_row, strict=True)])
+
+    def __str__(self) -> str:
+        """List parameters and components."""
+        names = ", ".join(f"{p.name} = {p.value:g}" for p in self.parameters.values())
+        return f"{self.name}: {self.n} unknowns; parameters {names}"
+
+
+def _component(i: int) -> Callable[[Any, Any], float]:
+    return lambda values, x: float(x[i])
