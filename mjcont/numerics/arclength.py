@@ -1,0 +1,176 @@
+"""Pseudo-arclength continuation: one step, and the loop that repeats it.
+
+The stepper predicts along the tangent and corrects orthogonally to it. Steps are chosen from the contraction of the
+corrector and from the angle between successive tangents; a step is refused when the tangent turns too far or the
+corrector wanders, so that a neighbouring branch is not jumped to.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from mjcont.numerics.bordered import Factored, border, null_vectors
+from mjcont.numerics.newton import Corrected, correct, with_row
+from mjcont.numerics.problem import Array
+from mjcont.numerics.settings import Settings
+from mjcont.numerics.system import Local, System
+
+_WANDER = 0.5
+_CONTRACTION = 0.1
+_GROWTH = 2.0
+
+
+@dataclass(slots=True)
+class CurvePoint:
+    """A point of a curve.
+
+    Attributes
+    ----------
+    x, y : state and (free parameters, auxiliary unknowns) as coordinates.
+    tangent : (n + k,) unit tangent in scaled unknowns, in the direction of travel.
+    sign : sign of det [G_z; t], which changes at simple branch points and nowhere else.
+    local : the evaluation there.
+    factored : LU of [G_z; t].
+    s : arclength from the start of its direction.
+    error : scaled residual.
+    angle : turning of the tangent since the last point, rad.
+    back : (n + k,) scaled step from here to the point before, and its tangent; None at the start.
+    extra : what detectors keep of the point (test values, spectrum).
+    """
+
+    x: Array
+    y: Array
+    tangent: Array
+    sign: float
+    local: Local
+    factored: Factored
+    s: float = 0.0
+    error: float = 0.0
+    angle: float = 0.0
+    contraction: float = 0.0
+    iterations: int = 0
+    back: tuple[Array, Array] | None = None
+    extra: dict[str, Any] = field(default_factory=dict)
+
+
+def point_from(c: Corrected, reference: Array, s: float) -> CurvePoint:
+    """Return the curve point of a corrected one; the tangent makes an acute angle with `reference`."""
+    rhs = np.zeros(len(reference))
+    rhs[-1] = 1.0
+    assert c.factored is not None
+    tangent = c.factored.solve(rhs)
+    tangent /= np.linalg.norm(tangent)
+    factored = Factored(with_row(c.jac, tangent))
+    cosine = float(np.clip(tangent @ reference, -1.0, 1.0))
+    return CurvePoint(
+        c.x, c.y, tangent, factored.sign, c.local, factored, s, c.error, math.acos(cosine), c.contraction, c.iterations
+    )
+
+
+def first_point(system: System, x: Array, y: Array, direction: float, settings: Settings) -> CurvePoint | str:
+    """Return the point of the curve nearest to (x, y), its first free parameter growing for direction > 0.
+
+    Returns a sentence where the corrector fails.
+    """
+    tangent = tangent_at(system, system.local(x, y), y)
+    c = correct(system, x, y, tangent, None, settings)
+    if c.failure:
+        return c.failure
+    component = tangent[system.n] if abs(tangent[system.n]) > 1e-8 else tangent[np.argmax(np.abs(tangent))]
+    if component * direction < 0:
+        tangent = -tangent
+        c = correct(system, c.x, c.y, tangent, None, settings)
+    return point_from(c, tangent, 0.0)
+
+
+def tangent_at(system: System, local: Local, y: Array) -> Array:
+    """Return a unit tangent (n + k,) of the curve through a point near it."""
+    jac = system.jacobian(local, y)
+    size = system.n + system.k
+    if isinstance(jac, np.ndarray):
+        rows = 1.0 / np.maximum(np.abs(jac).max(axis=1), 1e-300)
+        return null_vectors(rows[:, None] * jac, 0)[0][:, 0]
+    best: Array | None = None
+    for i in (size - 1, 0):
+        row = np.zeros((1, size))
+        row[0, i] = 1.0
+        t = Factored(border(jac, np.zeros((size - 1, 0)), row)).solve(np.append(np.zeros(size - 1), 1.0))
+        if np.all(np.isfinite(t)) and (best is None or np.linalg.norm(t) < np.linalg.norm(best)):
+            best = t
+    assert best is not None
+    return best / np.linalg.norm(best)
+
+
+def predict(point: CurvePoint, h: float) -> Array:
+    """Return the scaled step to the point h ahead on the cubic through the last two points and their tangents.
+
+    Its error is of fourth order in h. With bushes of stiffness k a prediction that opens the pins by d loads them
+    with k d, so a high order is what allows long steps with stiff joints.
+    """
+    if point.back is None:
+        return h * point.tangent
+    chord, before = point.back
+    length = float(np.linalg.norm(chord))
+    bend = chord + length * point.tangent
+    cubic = (before - point.tangent + 2.0 * bend / length) / length**2
+    return h * point.tangent + h**2 * (bend / length**2 + cubic * length) + h**3 * cubic
+
+
+def advance(
+    system: System, point: CurvePoint, h: float, settings: Settings, *, fresh: bool = False
+) -> CurvePoint | str:
+    """Return the next point a step h along the curve, or a sentence that says why the step is refused.
+
+    `fresh` takes derivatives at the prediction instead of those of the last point: dearer, but with stiff bushes
+    the soft direction turns by more than the last point's derivatives can tell.
+    """
+    x, y = system.move(point.x, point.y, predict(point, h))
+    c = correct(system, x, y, point.tangent, None if fresh else point.factored, settings)
+    if c.failure:
+        return c.failure
+    wandered = float(np.linalg.norm(system.difference(c.x, c.y, x, y)))
+    if wandered > _WANDER * abs(h):
+        return "the corrector wandered off the prediction"
+    new = point_from(c, point.tangent, point.s + abs(h))
+    new.back = (system.difference(point.x, point.y, new.x, new.y), point.tangent)
+    if new.angle > settings.angle_max:
+        return f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg"
+    return new
+
+
+def next_step(h: float, new: CurvePoint, settings: Settings) -> float:
+    """Return the next step from the turning angle and the contraction seen."""
+    by_angle = settings.angle / max(new.angle, 1e-3 * settings.angle)
+    return min(h * min(by_angle, by_contraction(new), _GROWTH), settings.ds_max)
+
+
+def by_contraction(new: CurvePoint) -> float:
+    """Return the factor by which the contraction of the corrector lets the step grow."""
+    return math.sqrt(_CONTRACTION / max(new.contraction, 1e-3)) if new.iterations > 1 else _GROWTH
+
+
+def land(system: System, point: CurvePoint, index: int, target: float, settings: Settings) -> CurvePoint | str:
+    """Return the point near `point` at which y[index] = target."""
+    row = np.zeros(system.n + system.k)
+    row[system.n + index] = 1.0
+    slope = point.tangent[system.n + index]
+    h = (target - point.y[index]) / slope
+    x, y = system.move(point.x, point.y, h * point.tangent)
+    y = y.copy()
+    y[index] = target
+    c = correct(system, x, y, row, None, settings)
+    if c.failure:
+        return c.failure
+    reference = point.tangent
+    rhs = np.append(np.zeros(system.n + system.k - 1), 1.0)
+    assert c.factored is not None
+    tangent = c.factored.solve(rhs)
+    tangent *= math.copysign(1.0, tangent @ reference) / np.linalg.norm(tangent)
+    factored = Factored(with_row(c.jac, tangent))
+    angle = math.acos(float(np.clip(tangent @ reference, -1.0, 1.0)))
+    s = point.s + float(np.linalg.norm(system.difference(c.x, c.y, point.x, point.y)))
+    return CurvePoint(c.x, c.y, tangent, factored.sign, c.local, factored, s, c.error, angle)

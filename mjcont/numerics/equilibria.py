@@ -1,0 +1,211 @@
+"""Detectors on a curve of equilibria: folds, branch points, Hopf points, user zeros."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mjcont.numerics import normalform
+from mjcont.numerics.arclength import CurvePoint
+from mjcont.numerics.defining import BranchPoint, Fold, Hopf
+from mjcont.numerics.events import (
+    Located,
+    Retry,
+    ScalarZero,
+    ZeroDetector,
+    approximate,
+    bisect,
+    point_at,
+    within,
+    zero_fraction,
+)
+from mjcont.numerics.newton import Corrected, solve
+from mjcont.numerics.problem import Array, Values
+from mjcont.numerics.settings import Settings
+from mjcont.numerics.spectrum import Spectrum, spectrum
+from mjcont.numerics.system import System
+
+_NOT_TRANSVERSE = 1e-6
+_UNFOLDED = 1e-7
+
+
+def spectrum_of(point: CurvePoint) -> Spectrum:
+    """Return the spectrum at a point, computed once."""
+    if "spectrum" not in point.extra:
+        point.extra["spectrum"] = spectrum(point.local.pencil)
+    return point.extra["spectrum"]
+
+
+def square_system(system: System, conditions: Sequence[Any], at: Corrected) -> tuple[System, Array]:
+    """Return the accurate system with `conditions` added at a corrected point, and its start y."""
+    base = system.values(at.y)
+    full = System(system.problem, base, system.free, (*system.conditions, *conditions), accurate=True)
+    extra = [a for c in conditions for a in c.aux]
+    return full, np.concatenate([at.y, extra])
+
+
+@dataclass(slots=True)
+class BranchPointDetector:
+    """Simple branch points, by the sign of det [G_z; t]; a change with no point behind it asks for a shorter step."""
+
+    system: System
+    settings: Settings
+
+    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether the orientation changes."""
+        return old.sign * new.sign < 0
+
+    def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
+        near = approximate(self.system, old, new, 0.5, self.settings)
+        if near.failure:
+            return None
+        condition = BranchPoint(near.local, self.system.free[0])
+        full, y = square_system(self.system, [condition], near)
+        c = solve(full, near.x, y)
+        if c.failure or abs(c.y[self.system.k]) > _UNFOLDED:
+            return None
+        s = within(self.system, old, new, c.x, c.y[: self.system.k])
+        if s is None:
+            return None
+        kernel, w = condition.null(c.local)
+        slope = self.system.free[0].slope(float(c.y[0]))
+        crossing = normalform.crossing(c.local, kernel, w, slope)
+        point = point_at(self.system, old, new, c, s)
+        return Located("BP", point, c.step, True, {"type": crossing.kind, "tangents": crossing.tangents, "w": w})
+
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+        """Return the branch point between the points.
+
+        Raises
+        ------
+        Retry
+            If the orientation changes without a branch point.
+        """
+        result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
+        if result is None:
+            raise Retry
+        return [result]
+
+
+def fold_detector(system: System, settings: Settings) -> ZeroDetector:
+    """Return the detector of folds: the tangent's parameter component changes sign."""
+    state: dict[str, Fold] = {}
+
+    def test(point: CurvePoint) -> float:
+        return float(point.tangent[system.n])
+
+    def solve_fold(near: Corrected) -> Corrected:
+        state["fold"] = Fold(near.local)
+        full, y = square_system(system, [state["fold"]], near)
+        return solve(full, near.x, y)
+
+    def finish(c: Corrected) -> tuple[dict[str, Any], str] | None:
+        v, w = state["fold"].physical(c.local)
+        f_p = c.local.par[:, 0]
+        if abs(w @ f_p) <= _NOT_TRANSVERSE * (np.abs(w) @ np.abs(f_p)):
+            return None
+        v = v / np.linalg.norm(v)
+        v *= 1.0 if v[np.argmax(np.abs(v))] > 0 else -1.0
+        w = w / (w @ v) if abs(w @ v) > 1e-12 * np.linalg.norm(w) else w / np.linalg.norm(w)
+        a = normalform.fold_coefficient(c.local, v, w)
+        return {"a": a, "v": v, "w": w}, ""
+
+    return ZeroDetector("LP", system, test, solve_fold, finish, settings)
+
+
+@dataclass(slots=True)
+class HopfDetector:
+    """Hopf points, by the number of eigenvalue pairs with positive sum; neutral saddles are told apart."""
+
+    system: System
+    settings: Settings
+    neutral: list[Located]
+
+    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether the count changes; symmetric K and C exclude it."""
+        a, b = spectrum_of(old), spectrum_of(new)
+        if a.conservative and b.conservative:
+            return False
+        return a.pair_count() != b.pair_count()
+
+    def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
+        if abs(spectrum_of(old).pair_count() - spectrum_of(new).pair_count()) > 1 and new.s - old.s > 1e-6:
+            return None
+        near = approximate(self.system, old, new, self._fraction(old, new), self.settings)
+        if near.failure:
+            return None
+        square = critical_square(spectrum(near.local.pencil))
+        if square is None:
+            return None
+        condition = Hopf(near.local, square)
+        full, y = square_system(self.system, [condition], near)
+        c = solve(full, near.x, y)
+        if c.failure:
+            return None
+        s = within(self.system, old, new, c.x, c.y[: self.system.k])
+        if s is None:
+            return None
+        point = point_at(self.system, old, new, c, s)
+        square = condition.square(c.y[self.system.k :])
+        if square <= 0:
+            return Located("NS", point, c.step, True, {"square": square})
+        omega = float(np.sqrt(square))
+        l1 = normalform.first_lyapunov(self.system.problem, c.x, c.local.values, omega)
+        kind = "supercritical" if l1 < 0 else "subcritical"
+        return Located("HB", point, c.step, True, {"omega": omega, "l1": l1, "type": kind})
+
+    @staticmethod
+    def _fraction(old: CurvePoint, new: CurvePoint) -> float:
+        a, b = critical_sum(spectrum_of(old)), critical_sum(spectrum_of(new))
+        return zero_fraction(a, b) if a * b < 0 else 0.5
+
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+        """Return the Hopf points between the points; several are separated by bisection."""
+        result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
+        if result is None:
+            return []
+        if result.kind == "NS":
+            self.neutral.append(result)
+            return []
+        return [result]
+
+
+def critical_pairs(s: Spectrum) -> list[tuple[float, float]]:
+    """Return (sum, product) of every complex pair and of every two real eigenvalues."""
+    ev = s.eigenvalues
+    pairs = [(2.0 * float(e.real), float(abs(e) ** 2)) for e in ev if e.imag > 0]
+    real = [float(e.real) for e in ev if e.imag == 0]
+    pairs += [(a + b, a * b) for i, a in enumerate(real) for b in real[:i]]
+    return pairs
+
+
+def critical_square(s: Spectrum) -> float | None:
+    """Return the product of the pair whose sum is nearest zero, relative to its size: omega^2 of a Hopf point."""
+    pairs = critical_pairs(s)
+    if not pairs:
+        return None
+    return min(pairs, key=lambda p: abs(p[0]) / max(abs(p[1]) ** 0.5, 1e-12))[1]
+
+
+def critical_sum(s: Spectrum) -> float:
+    """Return the sum of the pair nearest zero."""
+    pairs = critical_pairs(s)
+    return min(pairs, key=lambda p: abs(p[0]) / max(abs(p[1]) ** 0.5, 1e-12))[0] if pairs else 0.0
+
+
+def zero_detector(
+    system: System, monitor: Callable[[Array, Values], float], name: str, settings: Settings
+) -> ZeroDetector:
+    """Return the detector of user zeros of a monitor function."""
+
+    def test(point: CurvePoint) -> float:
+        return monitor(point.x, system.values(point.y))
+
+    def solve_zero(near: Corrected) -> Corrected:
+        full, y = square_system(system, [ScalarZero(monitor)], near)
+        return solve(full, near.x, y)
+
+    return ZeroDetector("UZ", system, test, solve_zero, lambda c: ({"monitor": name}, ""), settings, name)

@@ -1,0 +1,229 @@
+"""Newton's method on a `System`: with a row beside it for a point of a curve, without for a special point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mjcont.numerics.bordered import Factored, border
+from mjcont.numerics.problem import Array, Problem, Values
+from mjcont.numerics.settings import Settings
+from mjcont.numerics.system import Local, System
+
+_SLOW = 0.5
+_DIVERGING = 2.0
+_LARGEST_STEP = 2.0
+
+
+@dataclass(frozen=True, slots=True)
+class Corrected:
+    """A corrected point.
+
+    Attributes
+    ----------
+    x, y : the point.
+    local : the evaluation there, with derivatives.
+    factored : LU of the Jacobian there (with the row).
+    jac : the system's Jacobian there (without the row).
+    iterations : corrector steps before the last.
+    contraction : ratio of the last two steps.
+    step : size of the last step: the tolerance reached.
+    error : scaled residual.
+    failure : empty, or a sentence.
+    """
+
+    x: Array
+    y: Array
+    local: Local
+    factored: Factored | None
+    iterations: int
+    contraction: float
+    step: float
+    error: float
+    failure: str = ""
+    jac: Any = None
+
+
+def with_row(jac: Any, row: Array | None) -> Any:
+    """Return a Jacobian with `row` below it."""
+    return jac if row is None else border(jac, np.zeros((jac.shape[0], 0)), row[None])
+
+
+def matrix_with_row(system: System, local: Local, y: Array, row: Array | None) -> Any:
+    """Return the Jacobian of the system, with `row` below it."""
+    return with_row(system.jacobian(local, y), row)
+
+
+def _newton_step(system: System, local: Local, y: Array, lu: Factored, row: Array | None) -> tuple[Array, Array]:
+    r = system.residual(local, y)
+    return -lu.solve(r if row is None else np.append(r, 0.0)), r
+
+
+def _broyden(step: Array, steps: list[Array]) -> Array:
+    """Return the step of Broyden's method from the chord step and the steps taken since the matrix was formed.
+
+    Source: Kelley, Iterative Methods for Linear and Nonlinear Equations (SIAM 1995), section 7.3.
+    """
+    for before, after in zip(steps, steps[1:], strict=False):
+        step = step + after * (before @ step) / (before @ before)
+    if steps:
+        cosine = (steps[-1] @ step) / (steps[-1] @ steps[-1])
+        if cosine < 0.9:
+            step = step / (1.0 - cosine)
+    return step
+
+
+def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None, settings: Settings) -> Corrected:
+    """Return to the curve from a prediction, moving orthogonally to `row`.
+
+    Broyden steps from `lu` while they contract, renewed derivatives when they do not; a last Newton step with
+    derivatives at the solution takes the point to the noise floor.
+    """
+    size, ratio, failure = np.inf, 0.0, "the corrector did not converge"
+    local, iterations = system.local(x, y), 0
+    steps: list[Array] = []
+    while iterations < settings.max_corrections:
+        iterations += 1
+        if lu is None:
+            lu, steps = Factored(matrix_with_row(system, local, y, row)), []
+        step = _broyden(_newton_step(system, local, y, lu, row)[0], steps)
+        last, size = size, float(np.linalg.norm(step))
+        if not size < _LARGEST_STEP:
+            failure = "the corrector diverged"
+            break
+        ratio = size / last if np.isfinite(last) else 0.0
+        x, y = system.move(x, y, step)
+        local = system.local(x, y)
+        if size <= settings.tol or (size <= 100.0 * settings.tol and size * ratio <= 0.1 * settings.tol):
+            failure = ""
+            break
+        if ratio > _DIVERGING:
+            failure = "the corrector diverged"
+            break
+        steps.append(step)
+        if ratio > _SLOW and len(steps) > 2:
+            lu = None
+    if failure:
+        return Corrected(x, y, local, lu, iterations, ratio, size, np.inf, failure)
+    jac = system.jacobian(local, y)
+    factored = Factored(with_row(jac, row))
+    step, r = _newton_step(system, local, y, factored, row)
+    x, y = system.move(x, y, step)
+    size = float(np.linalg.norm(step))
+    return Corrected(x, y, local, factored, iterations, ratio, size, system.error(local, r), "", jac)
+
+
+def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int = 25, reach: float = 0.5) -> Corrected:
+    """Solve a system with as many equations as unknowns by full Newton steps, down to the noise floor.
+
+    Parameters
+    ----------
+    tol : scaled step at which to stop.
+    reach : a solution farther away than this (scaled) counts as not found.
+    """
+    x0, y0 = x, y
+    best, size, ratio, local = np.inf, np.inf, 0.0, system.local(x, y)
+    since_best, factored = 0, None
+    best_at = (x, y)
+    for iteration in range(1, most + 1):
+        factored = Factored(system.jacobian(local, y))
+        step, r = _newton_step(system, local, y, factored, None)
+        last, size = size, float(np.linalg.norm(step))
+        if not np.isfinite(size) or (size > _LARGEST_STEP and iteration > 2):
+            return Corrected(x, y, local, factored, iteration, np.inf, size, np.inf, "Newton's method diverged")
+        step *= min(1.0, reach / size) if size > 0 else 1.0
+        ratio = size / last if np.isfinite(last) else 0.0
+        x, y = system.move(x, y, step)
+        local = system.local(x, y)
+        if size < best:
+            best, best_at, since_best = size, (x, y), 0
+        else:
+            since_best += 1
+        if size <= tol or (best < 1e-6 and since_best >= (1 if best < 1e-9 else 2)):
+            break
+    x, y = best_at
+    local = system.local(x, y)
+    r = system.residual(local, y)
+    failure = "" if best < 1e-6 else "Newton's method did not converge"
+    if not failure and np.linalg.norm(system.difference(x, y, x0, y0)) > 2.0 * reach:
+        failure = "Newton's method left the neighbourhood"
+    return Corrected(x, y, local, factored, iteration, ratio, best, system.error(local, r), failure)
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """An equilibrium reached from a guess: how, how far away, and the residual there."""
+
+    x: Array
+    method: str
+    distance: float
+    error: float
+    failure: str = ""
+
+
+def find_start(problem: Problem, x0: Array, values: Values) -> Start:
+    """Return the equilibrium that `x0` belongs to: by Newton if it is near, else the one it flows to.
+
+    Far from an equilibrium pseudo-transient steps (M/dt + K) dx = f follow the damped motion with growing dt.
+    """
+    system = System(problem, values, ())
+    no_y = np.zeros(0)
+    near = solve(system, x0, no_y, most=8, reach=0.1)
+    if not near.failure:
+        distance = float(np.linalg.norm(system.difference(near.x, no_y, x0, no_y)))
+        if distance < 0.1:
+            return Start(near.x, "newton", distance, near.error)
+    x, failure = _pseudo_transient(system, x0)
+    if failure:
+        return Start(x, "pseudo-transient", np.inf, np.inf, failure)
+    final = solve(system, x, no_y, most=20, reach=0.2)
+    distance = float(np.linalg.norm(system.difference(final.x, no_y, x0, no_y)))
+    return Start(final.x, "pseudo-transient", distance, final.error, final.failure)
+
+
+def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array, str]:
+    """Follow M x' = f by linearly implicit steps whose length grows while the motion is smooth."""
+    problem, no_y = system.problem, np.zeros(0)
+    scale = problem.state_scale
+    local = system.local(x, no_y)
+    mass = _mass_like(local)
+    dt = _first_dt(local, mass)
+    for _ in range(most):
+        dx = _solve_dense(mass / dt - _dense(local.raw_jac), local.f)
+        size = float(np.max(np.abs(dx) / scale))
+        if not np.isfinite(size) or size > 0.2:
+            dt *= 0.25
+            if dt < 1e-14:
+                return x, "the motion from the start could not be followed: steps became too short"
+            continue
+        x = problem.retract(x, dx)
+        local = system.local(x, no_y)
+        newton = _solve_dense(-_dense(local.raw_jac), local.f)
+        if size < 1e-3 and np.max(np.abs(newton) / scale) < 1e-9:
+            return x, ""
+        dt *= 2.0 if size < 0.1 else 1.0
+    return x, f"the motion from the start had not come to rest after {most} steps: it may drift or have no equilibrium"
+
+
+def _solve_dense(matrix: Array, rhs: Array) -> Array:
+    try:
+        return np.linalg.solve(matrix, rhs)
+    except np.linalg.LinAlgError:
+        return np.linalg.lstsq(matrix, rhs, rcond=None)[0]
+
+
+def _dense(matrix: Any) -> Array:
+    return matrix if isinstance(matrix, np.ndarray) else matrix.toarray()
+
+
+def _mass_like(local: Local) -> Array:
+    pencil = local.pencil
+    return np.eye(local.problem.n) if pencil.mass is None else pencil.mass
+
+
+def _first_dt(local: Local, mass: Array) -> float:
+    """Return a step over which the fastest motion is well resolved."""
+    fast = np.max(np.abs(_dense(local.raw_jac)) / np.maximum(np.abs(np.diag(mass)), 1e-300)[:, None])
+    return float(1.0 / max(fast, 1e-12))

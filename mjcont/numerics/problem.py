@@ -1,0 +1,98 @@
+"""The protocol that a Mechanism and a VectorField both satisfy, and what they return.
+
+An equilibrium problem is f(x, p) = 0, with x on a manifold of tangent dimension n and p named scalars. Its
+motion is governed near an equilibrium by the quadratic pencil
+
+    P(s) = s^2 M + s C + K,   K = -df/dx,
+
+where a first-order system x' = f has M = 0 and C = I. Everything in `mjcont.numerics` is written for this
+protocol; it never imports MuJoCo.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+
+Array = np.ndarray
+Values = Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Linearization:
+    """f and its derivatives at one point.
+
+    Attributes
+    ----------
+    f : (n,) residual.
+    jac : (n, n) df/dx, dense or scipy.sparse.
+    par : (n, k) df/dp for the k parameters asked for.
+    """
+
+    f: Array
+    jac: Any
+    par: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Pencil:
+    """Matrices of s^2 M + s C + K at one equilibrium; `mass` is None for a first-order system (then C = I)."""
+
+    mass: Array | None
+    damping: Array | None
+    stiffness: Any
+
+
+class Problem(Protocol):
+    """What the numerics need to know of a problem.
+
+    Attributes
+    ----------
+    n : tangent dimension of the state.
+    second_order : whether the pencil has a mass matrix.
+    state_scale : (n,) typical size of each tangent coordinate, for arclength and difference steps.
+    evaluations : number of evaluations of f so far (every row of a batch counts as one).
+    """
+
+    n: int
+    second_order: bool
+    state_scale: Array
+    evaluations: int
+
+    def values(self, given: Values | None = None) -> dict[str, float]:
+        """Return a value for every parameter: those given, the defaults for the others."""
+        ...
+
+    def residual(self, x: Array, values: Values) -> Array:
+        """Return f, (n,)."""
+        ...
+
+    def residuals(self, x: Array, values: Values, steps: Array) -> Array:
+        """Return f at x moved by each row of `steps` (m, n), shape (m, n)."""
+        ...
+
+    def linearize(self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False) -> Linearization:
+        """Return f, df/dx and df/dp; `accurate` asks for the error that locating special points needs."""
+        ...
+
+    def pencil(self, x: Array, values: Values, jac: Any) -> Pencil:
+        """Return the matrices whose eigenvalues tell stability; `jac` is df/dx there."""
+        ...
+
+    def first_order(self, x: Array, values: Values, steps: Array) -> Array:
+        """Return the right-hand side of the first-order form at steps (m, N) of its state, shape (m, N)."""
+        ...
+
+    def retract(self, x: Array, step: Array) -> Array:
+        """Return x moved by a tangent step (n,)."""
+        ...
+
+    def difference(self, x1: Array, x0: Array) -> Array:
+        """Return the tangent step (n,) that takes x0 to x1."""
+        ...
+
+
+Monitor = Callable[[Array, Values], float]

@@ -1,0 +1,47 @@
+"""Settings of a continuation, with the cross-checks between them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from mjcont.errors import ParameterError
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """How a curve is followed. Arclength is measured in scaled unknowns (see `System`).
+
+    Attributes
+    ----------
+    ds, ds_min, ds_max : float
+        First, smallest and largest step.
+    angle, angle_max : float
+        Turning of the tangent per step aimed at, and never exceeded, in rad.
+    tol : float
+        Size of a corrector step at which it has converged (one more Newton step always follows).
+    max_corrections : int
+        Corrector iterations before a step is given up.
+    max_points, max_arclength, max_seconds : limits of one direction.
+    """
+
+    ds: float = 0.01
+    ds_min: float = 1e-9
+    ds_max: float = 0.1
+    angle: float = math.radians(6.0)
+    angle_max: float = math.radians(15.0)
+    tol: float = 1e-8
+    max_corrections: int = 12
+    max_points: int = 5000
+    max_arclength: float = math.inf
+    max_seconds: float = math.inf
+
+    def __post_init__(self) -> None:
+        if not 0 < self.ds_min <= self.ds <= self.ds_max:
+            raise ParameterError(
+                f"steps must satisfy 0 < ds_min <= ds <= ds_max, got {self.ds_min:g}, {self.ds:g}, {self.ds_max:g}"
+            )
+        if not 0 < self.angle < self.angle_max < math.pi / 2:
+            raise ParameterError("angles must satisfy 0 < angle < angle_max < pi/2 (radians)")
+        if self.max_points < 2 or self.max_corrections < 2:
+            raise ParameterError("max_points and max_corrections must be at least 2")

@@ -1,0 +1,139 @@
+"""Stability of an equilibrium from its pencil s^2 M + s C + K.
+
+When K and C are symmetric and C is positive semidefinite, the number of unstable eigenvalues is the number of
+negative eigenvalues of K and no Hopf point can exist (Kelvin-Tait-Chetaev); modes that the damping does not reach
+make a point marginal, not unstable. Otherwise the whole spectrum decides, with a margin for the noise of the
+difference derivatives.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy import linalg, sparse
+from scipy.sparse.linalg import ArpackNoConvergence, eigs, splu
+
+from mjcont.numerics.problem import Array, Pencil
+
+STABLE, UNSTABLE, MARGINAL = "stable", "unstable", "marginal"
+_SYMMETRY_NOISE = 1e-8
+_DIFFERENCE_NOISE = 1e-10
+_ROUNDING = 1e-13
+_RIGID = 1e-7
+
+
+@dataclass(frozen=True, slots=True)
+class Spectrum:
+    """Eigenvalues and what they say.
+
+    Attributes
+    ----------
+    eigenvalues : (N,) complex, in 1/s, by falling real part (for large sparse problems those nearest zero).
+    stability : "stable", "unstable" or "marginal".
+    n_unstable : number of eigenvalues with positive real part beyond the noise.
+    noise : how far from the axis an eigenvalue must be to be told from it.
+    conservative : whether symmetric K and C exclude Hopf points.
+    """
+
+    eigenvalues: Array
+    stability: str
+    n_unstable: int
+    noise: float
+    conservative: bool
+
+    def pair_count(self) -> int:
+        """Return how many pairs of eigenvalues have a positive sum (complex pairs, and pairs of real ones).
+
+        It changes by one at a Hopf point or a neutral saddle and nowhere else. Complex pairs within the noise of
+        the axis are left out.
+        """
+        ev = self.eigenvalues
+        pairs = int(np.count_nonzero((ev.imag > 0) & (ev.real > self.noise)))
+        real = ev.real[np.abs(ev.imag) == 0]
+        sums = real[:, None] + real[None, :]
+        return pairs + int(np.count_nonzero(np.triu(sums > 0, 1)))
+
+
+def spectrum(pencil: Pencil) -> Spectrum:
+    """Return eigenvalues and stability of the pencil."""
+    if sparse.issparse(pencil.stiffness):
+        return _sparse_spectrum(pencil.stiffness)
+    if pencil.mass is None or pencil.damping is None:
+        ev = np.linalg.eigvals(-pencil.stiffness)
+        size = np.abs(pencil.stiffness).max()
+        return _classify(ev, 1e-11 * size + 1e-12 * np.abs(ev), conservative=False)
+    k, c = pencil.stiffness, pencil.damping
+    if _symmetric(k) and _symmetric(c) and np.linalg.eigvalsh(0.5 * (c + c.T))[0] >= -_ROUNDING * np.abs(c).max():
+        return _conservative(pencil.mass, c, 0.5 * (k + k.T))
+    ev = quadratic_eigenvalues(pencil.mass, c, k)
+    root = np.sqrt(np.abs(np.diag(pencil.mass)).min())
+    noise = _DIFFERENCE_NOISE * np.abs(k).max() / (root**2 * np.maximum(np.abs(ev), np.sqrt(np.median(np.abs(ev)))))
+    return _classify(ev, np.minimum(noise, 1e-2 * np.abs(ev) + 1e-12), conservative=False)
+
+
+def _symmetric(matrix: Array) -> bool:
+    return bool(np.abs(matrix - matrix.T).max() <= _SYMMETRY_NOISE * max(np.abs(matrix).max(), 1e-300))
+
+
+def quadratic_eigenvalues(mass: Array, damping: Array, stiffness: Array) -> Array:
+    """Return the 2 n eigenvalues of s^2 M + s C + K, scaled by the frequency of the largest stiffness."""
+    n = len(mass)
+    factor = linalg.cholesky(mass, lower=True)
+    k = linalg.solve_triangular(factor, linalg.solve_triangular(factor, stiffness.T, lower=True).T, lower=True)
+    c = linalg.solve_triangular(factor, linalg.solve_triangular(factor, damping.T, lower=True).T, lower=True)
+    rate = np.sqrt(max(np.abs(k).max(), 1e-300))
+    block = np.zeros((2 * n, 2 * n))
+    block[:n, n:] = np.eye(n)
+    block[n:, :n], block[n:, n:] = -k / rate**2, -c / rate
+    return np.linalg.eigvals(block) * rate
+
+
+def _conservative(mass: Array, damping: Array, stiffness: Array) -> Spectrum:
+    """Classify by the inertia of K; the damping only decides whether a mode with positive K is damped."""
+    ev = _sorted(quadratic_eigenvalues(mass, damping, stiffness))
+    squares = linalg.eigvalsh(stiffness, mass)
+    noise = _DIFFERENCE_NOISE * np.abs(stiffness).max() / np.diag(mass).max()
+    negative = int(np.count_nonzero(squares < -noise))
+    if negative:
+        return Spectrum(ev, UNSTABLE, negative, 0.0, True)
+    touching = np.any(np.abs(squares) <= noise) or np.any(np.abs(ev.real) <= _ROUNDING * np.abs(ev).max())
+    return Spectrum(ev, MARGINAL if touching else STABLE, 0, 0.0, True)
+
+
+def _sorted(ev: Array) -> Array:
+    return ev[np.lexsort((ev.imag, -ev.real))].astype(complex)
+
+
+def _classify(ev: Array, noise: Array, *, conservative: bool) -> Spectrum:
+    order = np.lexsort((ev.imag, -ev.real))
+    ev, noise = ev[order].astype(complex), noise[order]
+    unstable = int(np.count_nonzero(ev.real > noise))
+    if unstable:
+        state = UNSTABLE
+    else:
+        state = MARGINAL if np.any(np.abs(ev.real) <= noise) else STABLE
+    margin = float(noise[np.argmin(np.abs(ev.real) - noise)]) if len(ev) else 0.0
+    return Spectrum(ev, state, unstable, margin, conservative)
+
+
+def _sparse_spectrum(stiffness: Any) -> Spectrum:
+    """Count unstable eigenvalues of J = -K, sparse: by inertia where J is symmetric, else near the axis."""
+    jac = sparse.csc_matrix(-stiffness)
+    n = jac.shape[0]
+    size = abs(jac).max()
+    shift = 1e-3 * size / n
+    start = np.cos(np.arange(n, dtype=float))
+    try:
+        near = eigs(jac, k=min(6, n - 2), sigma=shift, v0=start, return_eigenvectors=False)
+    except (ArpackNoConvergence, RuntimeError):
+        near = np.zeros(0, dtype=complex)
+    result = _classify(near, 1e-12 * size + 0.0 * near.real, conservative=False)
+    if abs(jac - jac.T).max() <= _SYMMETRY_NOISE * size:
+        lu = splu(jac, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        if np.array_equal(lu.perm_r, lu.perm_c):
+            count = int(np.count_nonzero(lu.U.diagonal() > 0))
+            state = UNSTABLE if count else result.stability if result.stability == MARGINAL else STABLE
+            return Spectrum(result.eigenvalues, state, count, result.noise, True)
+    return result

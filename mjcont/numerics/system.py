@@ -1,0 +1,253 @@
+"""Systems of equations G(x, y) = 0 whose solutions are points or curves: equilibria with conditions on them.
+
+The unknowns are the state x and the vector y = (free parameters, auxiliary unknowns of the conditions). The
+equations are f(x, p) = 0 and those of the conditions (`defining.py`). With one more unknown than equations the
+solutions form a curve; with as many, a special point. Unknowns are scaled throughout: a step is
+(dx / state_scale, dy), and a parameter's coordinate runs over about one unit within its bounds.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from scipy import sparse
+
+from mjcont.numerics.bordered import border, row_scale
+from mjcont.numerics.problem import Array, Pencil, Problem, Values
+
+_LOG_SPAN = 1e3
+_GRADIENT_STEP = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Free:
+    """A free parameter and its coordinate: linear, or logarithmic where positive bounds span three decades."""
+
+    name: str
+    low: float
+    high: float
+
+    @property
+    def log(self) -> bool:
+        """Whether the coordinate is logarithmic."""
+        return self.low > 0 and self.high / self.low >= _LOG_SPAN
+
+    def coordinate(self, value: float) -> float:
+        """Return the coordinate of a value."""
+        if self.log:
+            return math.log(value) / math.log(self.high / self.low)
+        return value / (self.high - self.low)
+
+    def value(self, coordinate: float) -> float:
+        """Return the value at a coordinate."""
+        if self.log:
+            return math.exp(min(coordinate * math.log(self.high / self.low), 700.0))
+        return coordinate * (self.high - self.low)
+
+    def slope(self, coordinate: float) -> float:
+        """Return d value / d coordinate."""
+        if self.log:
+            return self.value(coordinate) * math.log(self.high / self.low)
+        return self.high - self.low
+
+
+class Local:
+    """What is known of the problem at one (x, p): computed on demand, once."""
+
+    __slots__ = ("_lin", "_pencil", "_residual", "accurate", "problem", "values", "wrt", "x")
+
+    def __init__(self, problem: Problem, x: Array, values: Values, wrt: Sequence[str], accurate: bool) -> None:
+        self.problem, self.x, self.values, self.wrt, self.accurate = problem, x, values, wrt, accurate
+        self._lin: Any = None
+        self._pencil: Pencil | None = None
+        self._residual: Array | None = None
+
+    @property
+    def f(self) -> Array:
+        """Residual, (n,)."""
+        if self._lin is not None:
+            return self._lin.f
+        if self._residual is None:
+            self._residual = self.problem.residual(self.x, self.values)
+        return self._residual
+
+    def _linearize(self) -> Any:
+        if self._lin is None:
+            self._lin = self.problem.linearize(self.x, self.values, self.wrt, accurate=self.accurate)
+        return self._lin
+
+    @property
+    def jac(self) -> Any:
+        """df/dx times the state scale: derivatives in scaled unknowns, (n, n)."""
+        jac, scale = self._linearize().jac, self.problem.state_scale
+        return (jac @ sparse.diags(scale)).tocsc() if sparse.issparse(jac) else jac * scale
+
+    @property
+    def raw_jac(self) -> Any:
+        """df/dx in physical units, (n, n)."""
+        return self._linearize().jac
+
+    @property
+    def par(self) -> Array:
+        """df/dp in physical units, (n, k)."""
+        return self._linearize().par
+
+    @property
+    def pencil(self) -> Pencil:
+        """M, C, K."""
+        if self._pencil is None:
+            self._pencil = self.problem.pencil(self.x, self.values, self.raw_jac)
+        return self._pencil
+
+
+class Condition(Protocol):
+    """Equations beside f = 0.
+
+    Attributes
+    ----------
+    count : number of equations.
+    aux : starting values of the auxiliary unknowns it adds to y.
+    unfolds : whether its first auxiliary unknown adds `direction` to f (see `BranchPoint`).
+    """
+
+    count: int
+    aux: tuple[float, ...]
+    unfolds: bool
+
+    def value(self, local: Local, aux: Array) -> Array:
+        """Return the equations' values, (count,)."""
+        ...
+
+    def update(self, local: Local, aux: Array) -> None:
+        """Renew the borders at a solution, so that the system stays regular along a curve."""
+        ...
+
+
+class System:
+    """f = 0 and conditions, as equations in (x, y).
+
+    Parameters
+    ----------
+    problem : Problem
+    base : Values
+        A value for every parameter; the free ones are replaced.
+    free : sequence of Free
+    conditions : sequence of Condition
+    accurate : bool
+        Whether derivatives are those for locating special points.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        base: Values,
+        free: Sequence[Free],
+        conditions: Sequence[Condition] = (),
+        accurate: bool = False,
+    ) -> None:
+        self.problem, self.base, self.free = problem, dict(base), tuple(free)
+        self.conditions, self.accurate = tuple(conditions), accurate
+        self.names = tuple(p.name for p in self.free)
+        self.n = problem.n
+        self.k = len(self.free) + sum(len(c.aux) for c in self.conditions)
+        self.equations = self.n + sum(c.count for c in self.conditions)
+
+    def start_y(self) -> Array:
+        """Return y with parameters at their base values and auxiliary unknowns at their starts, (k,)."""
+        aux = [a for c in self.conditions for a in c.aux]
+        return np.array([p.coordinate(self.base[p.name]) for p in self.free] + aux)
+
+    def values(self, y: Array) -> dict[str, float]:
+        """Return the value of every parameter at y."""
+        merged = dict(self.base)
+        for p, u in zip(self.free, y, strict=False):
+            merged[p.name] = p.value(float(u))
+        return merged
+
+    def local(self, x: Array, y: Array) -> Local:
+        """Return the evaluation at (x, y)."""
+        return Local(self.problem, x, self.values(y), self.names, self.accurate)
+
+    def _aux(self, y: Array) -> list[Array]:
+        parts, at = [], len(self.free)
+        for c in self.conditions:
+            parts.append(y[at : at + len(c.aux)])
+            at += len(c.aux)
+        return parts
+
+    def residual(self, local: Local, y: Array) -> Array:
+        """Return G, (equations,)."""
+        parts = [local.f]
+        for c, aux in zip(self.conditions, self._aux(y), strict=True):
+            if c.unfolds:
+                parts[0] = parts[0] + aux[0] * c.direction  # type: ignore[attr-defined]
+            parts.append(c.value(local, aux))
+        return np.concatenate(parts) if len(parts) > 1 else parts[0]
+
+    def jacobian(self, local: Local, y: Array) -> Any:
+        """Return dG in scaled unknowns, (equations, n + k)."""
+        slopes = np.array([p.slope(u) for p, u in zip(self.free, y, strict=False)])
+        columns = np.zeros((self.n, self.k))
+        columns[:, : len(self.free)] = local.par * slopes
+        at = len(self.free)
+        for c in self.conditions:
+            if c.unfolds:
+                columns[:, at] = c.direction  # type: ignore[attr-defined]
+            at += len(c.aux)
+        rows = self._condition_rows(local, y)
+        return border(local.jac, columns, rows[:, : self.n], rows[:, self.n :])
+
+    def _condition_rows(self, local: Local, y: Array) -> Array:
+        rows = np.zeros((self.equations - self.n, self.n + self.k))
+        at, rest = 0, []
+        for c, aux in zip(self.conditions, self._aux(y), strict=True):
+            gradient: Callable[..., Array] | None = getattr(c, "gradient", None)
+            if gradient is not None:
+                rows[at : at + c.count, : self.n + len(self.free)] = gradient(local, self, y)
+            else:
+                rest.append((at, c, aux))
+            at += c.count
+        if rest:
+            self._difference_rows(rows, rest, local, y)
+        return rows
+
+    def _difference_rows(self, rows: Array, rest: Sequence[Any], local: Local, y: Array) -> None:
+        """Fill the rows of conditions without a gradient by centred differences: good enough for Newton's matrix."""
+        h = _GRADIENT_STEP
+
+        def conditions_at(step: Array) -> Array:
+            x, y1 = self.move(local.x, y, step)
+            moved = Local(self.problem, x, self.values(y1), self.names, self.accurate)
+            parts = self._aux(y1)
+            return np.concatenate([c.value(moved, parts[self.conditions.index(c)]) for _, c, _ in rest])
+
+        gradient = np.empty((sum(c.count for _, c, _ in rest), self.n + self.k))
+        for j in range(self.n + self.k):
+            step = np.zeros(self.n + self.k)
+            step[j] = h
+            gradient[:, j] = (conditions_at(step) - conditions_at(-step)) / (2.0 * h)
+        done = 0
+        for at, c, _ in rest:
+            rows[at : at + c.count] = gradient[done : done + c.count]
+            done += c.count
+
+    def move(self, x: Array, y: Array, step: Array) -> tuple[Array, Array]:
+        """Return (x, y) moved by a scaled step (n + k,)."""
+        return self.problem.retract(x, step[: self.n] * self.problem.state_scale), y + step[self.n :]
+
+    def difference(self, x1: Array, y1: Array, x0: Array, y0: Array) -> Array:
+        """Return the scaled step from (x0, y0) to (x1, y1), (n + k,)."""
+        return np.concatenate([self.problem.difference(x1, x0) / self.problem.state_scale, y1 - y0])
+
+    def update(self, local: Local, y: Array) -> None:
+        """Renew the conditions' borders at a solution."""
+        for c, aux in zip(self.conditions, self._aux(y), strict=True):
+            c.update(local, aux)
+
+    def error(self, local: Local, residual: Array) -> float:
+        """Return the largest force residual relative to the forces that unit steps cause: a dimensionless size."""
+        return float(np.max(np.abs(residual[: self.n]) * row_scale(local.jac)))
