@@ -1,0 +1,55 @@
+"""mjcont: numerical continuation and bifurcation analysis of MuJoCo mechanisms.
+
+Load a mechanism, pick a parameter, and get every equilibrium as that parameter moves::
+
+    import mjcont as mc
+
+    mechanism = mc.Mechanism.from_xml("overcentre")
+    branch = mc.continue_equilibria(mechanism, "F", bounds=(-50, 50), start={"F": 50.0})
+    print(branch)
+"""
+
+from importlib import metadata as _metadata
+
+from mjcont.branch import Branch, Column, Point, SpecialPoint
+from mjcont.continuation import continue_equilibria, find_equilibrium
+from mjcont.errors import (
+    BoundsError,
+    MjcontError,
+    ModelError,
+    NameLookupError,
+    ParameterError,
+    ResultFileError,
+    StartError,
+    StudyError,
+)
+from mjcont.mechanism import Mechanism
+from mjcont.numerics.settings import Settings
+from mjcont.storage import load
+from mjcont.vectorfield import VectorField
+
+try:
+    __version__ = _metadata.version("mjcont")
+except _metadata.PackageNotFoundError:
+    __version__ = "0.0.0"
+
+__all__ = [
+    "BoundsError",
+    "Branch",
+    "Column",
+    "Mechanism",
+    "MjcontError",
+    "ModelError",
+    "NameLookupError",
+    "ParameterError",
+    "Point",
+    "ResultFileError",
+    "Settings",
+    "SpecialPoint",
+    "StartError",
+    "StudyError",
+    "VectorField",
+    "continue_equilibria",
+    "find_equilibrium",
+    "load",
+]

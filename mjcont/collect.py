@@ -1,0 +1,232 @@
+"""From traced curves to results: rows in order, spectra, labelled special points, provenance."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from importlib import metadata
+from typing import Any
+
+import numpy as np
+
+from mjcont.branch import Branch, Column, Point, SpecialPoint, show
+from mjcont.errors import StartError
+from mjcont.numerics.arclength import CurvePoint, first_point
+from mjcont.numerics.equilibria import spectrum_of
+from mjcont.numerics.events import Located
+from mjcont.numerics.problem import Array, Values
+from mjcont.numerics.settings import Settings
+from mjcont.numerics.spectrum import spectrum
+from mjcont.numerics.system import System
+from mjcont.numerics.trace import End, Status, Trace, Walker, trace
+from mjcont.storage import special_from_row
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A special point as it is found, while its curve is still being followed: it has no label yet."""
+
+    kind: str
+    parameters: Mapping[str, float]
+    observables: Mapping[str, float]
+
+
+Progress = Callable[[int, Found | None], None]
+_VECTOR_NAMES = ("v", "w")
+
+
+def make_point(problem: Any, x: Array, values: Values) -> Point:
+    """Return the Point of an equilibrium, with observables, eigenvalues and stability."""
+    jac = problem.linearize(x, values, ()).jac
+    s = spectrum(problem.pencil(x, values, jac))
+    measured = problem.measure(x[None], values)[0]
+    observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
+    return Point(dict(values), observables, x.copy(), s.eigenvalues, s.stability, s.n_unstable, problem, units(problem))
+
+
+def units(problem: Any) -> dict[str, str]:
+    """Return the units of all parameters and observables."""
+    found = {p.name: p.unit for p in problem.parameters.values()}
+    return found | {o.name: o.unit for o in problem.observables.values()}
+
+
+def _found(system: System, item: Located) -> Found:
+    problem: Any = system.problem
+    values = system.values(item.point.y)
+    measured = problem.measure(item.point.x[None], values)[0]
+    observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
+    return Found(item.kind, {n: values[n] for n in system.names}, observables)
+
+
+def run_directions(
+    walker: Walker, x: Array, y: Array, directions: Sequence[float], progress: Progress | None
+) -> list[Trace]:
+    """Walk from a start in the directions given; a closed curve or an interrupt ends after the first."""
+    traces: list[Trace] = []
+    count = 0
+
+    def report(item: CurvePoint | Located | End) -> None:
+        nonlocal count
+        if progress is not None and not isinstance(item, End):
+            count += isinstance(item, CurvePoint)
+            progress(count, _found(walker.system, item) if isinstance(item, Located) else None)
+
+    for direction in directions:
+        if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
+            break
+        first = first_point(walker.system, x, y, direction, walker.settings)
+        if isinstance(first, str):
+            traces.append(Trace([], [], End(Status.NO_START, f"the curve could not be entered: {first}")))
+            continue
+        traces.append(trace(walker, first, report))
+    return traces
+
+
+def collect(
+    kind: str,
+    system: System,
+    traces: Sequence[Trace],
+    directions: Sequence[float],
+    origin: str,
+    settings: Settings,
+    neutral: Sequence[Located] = (),
+) -> Branch:
+    """Join the directions of a curve into a branch, special points in their places.
+
+    The branch is stored from the end reached when the parameter first falls, so labels count along it.
+    """
+    rows: list[tuple[CurvePoint, Located | None]] = []
+    ends: list[tuple[str, str]] = []
+    start_index = 0
+    for run, direction in zip(traces, directions, strict=False):
+        ordered = _ordered(run)
+        end = (run.end.status.value, run.end.message)
+        if direction < 0:
+            rows = ordered[::-1]
+            start_index = max(len(rows) - 1, 0)
+            ends = [end]
+        else:
+            rows += ordered[1:] if rows else ordered
+            ends.append(end)
+    problem = system.problem
+    if not rows:
+        raise StartError(f"{problem.name}: " + "; ".join(m for _, m in ends))  # type: ignore[attr-defined]
+    return build_branch(kind, system, rows, ends, origin, start_index, settings, neutral)
+
+
+def _ordered(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
+    rows: list[tuple[CurvePoint, Located | None]] = [(p, None) for p in run.points]
+    rows += [(e.point, e) for e in run.special]
+    return sorted(rows, key=lambda r: r[0].s)
+
+
+def build_branch(
+    kind: str,
+    system: System,
+    rows: Sequence[tuple[CurvePoint, Located | None]],
+    ends: Sequence[tuple[str, str]],
+    origin: str,
+    start_index: int,
+    settings: Settings,
+    neutral: Sequence[Located],
+) -> Branch:
+    """Return the branch of ordered curve points: columns, spectra, labelled special points, provenance."""
+    problem: Any = system.problem
+    values = [system.values(p.y) for p, _ in rows]
+    states = np.array([p.x for p, _ in rows])
+    spectra = [spectrum_of(p) for p, _ in rows]
+    measured = problem.measure(states, values)
+    unit_of = units(problem)
+    columns = {
+        p.name: Column(p.name, unit_of[p.name], "parameter", _frozen([v[p.name] for v in values])) for p in system.free
+    }
+    for k, name in enumerate(problem.observables):
+        if name not in columns:
+            columns[name] = Column(name, unit_of[name], "observable", _frozen(measured[:, k]))
+    width = max(len(s.eigenvalues) for s in spectra)
+    eigenvalues = np.full((len(rows), width), complex(np.nan, np.nan))
+    for i, s in enumerate(spectra):
+        eigenvalues[i, : len(s.eigenvalues)] = s.eigenvalues
+    stability = np.array([s.stability for s in spectra])
+    stability[[i for i, (_, e) in enumerate(rows) if e is not None and e.kind in ("LP", "HB", "BP")]] = "marginal"
+    branch = Branch(
+        kind=kind,
+        name=problem.name,
+        columns=columns,
+        states=_frozen(states),
+        state_labels=problem.state_labels,
+        eigenvalues=_frozen(eigenvalues),
+        stability=_frozen(stability),
+        n_unstable=_frozen([s.n_unstable for s in spectra]),
+        residuals=_frozen([p.error for p, _ in rows]),
+        special_points=(),
+        free={p.name: (p.low, p.high) for p in system.free},
+        fixed={k: v for k, v in values[0].items() if k not in system.names},
+        ends=ends,
+        start="",
+        settings={k: v for k, v in asdict(settings).items() if v != math.inf},
+        provenance=provenance(problem),
+        problem=problem,
+        start_index=start_index,
+        neutral_saddles=[
+            {n: v for n, v in system.values(e.point.y).items() if n in system.names} for e in neutral
+        ],
+    )
+    object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows)))
+    object.__setattr__(branch, "start", _describe_start(branch, origin))
+    return branch
+
+
+def _frozen(data: Any) -> Array:
+    array = np.array(data)
+    array.flags.writeable = False
+    return array
+
+
+def _special_points(
+    branch: Branch, rows: Sequence[tuple[CurvePoint, Located | None]]
+) -> list[SpecialPoint]:
+    counts: dict[str, int] = {}
+    found = []
+    for i, (_, e) in enumerate(rows):
+        if e is None:
+            continue
+        counts[e.kind] = counts.get(e.kind, 0) + 1
+        found.append(
+            special_from_row(
+                branch.row(i),
+                kind=e.kind,
+                label=f"{e.kind}{counts[e.kind]}",
+                index=i,
+                tolerance=e.tolerance,
+                converged=e.converged,
+                coefficients={k: v for k, v in e.data.items() if isinstance(v, float | str)},
+                vectors={k: v for k, v in e.data.items() if isinstance(v, np.ndarray)},
+                note=e.note,
+                free=branch.free,
+                curve=branch.kind,
+            )
+        )
+    return found
+
+
+def _describe_start(branch: Branch, origin: str) -> str:
+    i = branch.start_index
+    names = [*branch.free, *(c.name for c in branch.columns.values() if c.role == "observable")]
+    shown = ", ".join(f"{n} = {show(float(branch[n][i]), branch.unit(n), 6)}" for n in names[:4])
+    return f"{shown}; {branch.stability[i]} ({origin})"
+
+
+def provenance(problem: Any) -> dict[str, str]:
+    """Return versions and the model's hash."""
+    versions = {name: metadata.version(name) for name in ("mujoco", "numpy", "scipy")}
+    try:
+        versions["mjcont"] = metadata.version("mjcont")
+    except metadata.PackageNotFoundError:
+        versions["mjcont"] = "not installed"
+    mjcf = getattr(problem, "mjcf", None)
+    if mjcf is not None:
+        versions["model_sha256"] = hashlib.sha256(mjcf.encode()).hexdigest()
+    return versions

@@ -1,0 +1,245 @@
+"""The verbs: `find_equilibrium`, `continue_equilibria`, and the points of a branch at a value."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+
+from mjcont.branch import Branch, Point, show
+from mjcont.collect import Progress, collect, make_point, run_directions
+from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError, unknown_name
+from mjcont.numerics.arclength import CurvePoint
+from mjcont.numerics.equilibria import (
+    BranchPointDetector,
+    HopfDetector,
+    fold_detector,
+    square_system,
+    zero_detector,
+)
+from mjcont.numerics.events import Detector, Located, ScalarZero
+from mjcont.numerics.newton import Corrected, find_start, solve
+from mjcont.numerics.problem import Array, Values
+from mjcont.numerics.settings import Settings
+from mjcont.numerics.system import Free, System
+from mjcont.numerics.trace import Walker
+
+
+def make_settings(options: Mapping[str, Any]) -> Settings:
+    """Return Settings from keyword options.
+
+    Raises
+    ------
+    NameLookupError
+        If an option does not exist; the message lists those that do.
+    """
+    valid = [f.name for f in fields(Settings)]
+    for name in options:
+        if name not in valid:
+            raise unknown_name("option", name, valid)
+    return Settings(**options)
+
+
+def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) -> tuple[float, float]:
+    """Return the bounds of a parameter: those given, or its own.
+
+    Raises
+    ------
+    BoundsError
+        If they are not two increasing finite numbers, or lie outside a control's range.
+    """
+    parameter = problem.parameter(name)
+    if bounds is None:
+        return parameter.bounds
+    try:
+        low, high = (float(b) for b in bounds)
+    except (TypeError, ValueError) as error:
+        raise BoundsError(f"bounds of {name} must be two numbers (low, high), got {bounds!r}") from error
+    if not (math.isfinite(low) and math.isfinite(high) and low < high):
+        raise BoundsError(f"bounds of {name} must be finite with low < high, got ({low:g}, {high:g})")
+    hard_low, hard_high = parameter.hard_bounds
+    if low < hard_low or high > hard_high:
+        raise BoundsError(
+            f"bounds ({low:g}, {high:g}) of {name} leave the actuator's ctrlrange [{hard_low:g}, {hard_high:g}], "
+            "where MuJoCo would clamp it: narrow the bounds or widen the ctrlrange in the XML"
+        )
+    return low, high
+
+
+def start_from(
+    problem: Any, start: Mapping[str, float] | Point | None, keyframe: str | None, state: Any
+) -> tuple[Array, dict[str, float]]:
+    """Return the state and parameter values that `start`, `keyframe` and `state` describe."""
+    if isinstance(start, Point):
+        known = {k: v for k, v in start.parameters.items() if k in problem.parameters or ":" in k}
+        return problem.start_state(keyframe, start.state if state is None else state), problem.values(known)
+    if start is not None and not isinstance(start, Mapping):
+        raise ParameterError(f"start must be a dict of parameter values or a point, got {type(start).__name__}")
+    return problem.start_state(keyframe, state), problem.values(start)
+
+
+def find_equilibrium(
+    problem: Any, start: Mapping[str, float] | Point | None = None, *, keyframe: str | None = None, state: Any = None
+) -> Point:
+    """Return the equilibrium that a start belongs to: by Newton if it is near, else the one it flows to.
+
+    Raises
+    ------
+    StartError
+        If none is found.
+    """
+    x, values = start_from(problem, start, keyframe, state)
+    found = find_start(problem, x, values)
+    if found.failure:
+        raise StartError(f"no equilibrium found from {_start_name(start, keyframe, state)}: {found.failure}")
+    return make_point(problem, found.x, values)
+
+
+def _start_name(start: Any, keyframe: str | None, state: Any) -> str:
+    if state is not None:
+        return "the given state"
+    if keyframe is not None:
+        return f"keyframe '{keyframe}'"
+    return "the given point" if isinstance(start, Point) else "the model's initial pose"
+
+
+def continue_equilibria(
+    problem: Any,
+    parameter: str,
+    bounds: tuple[float, float] | None = None,
+    start: Mapping[str, float] | Point | None = None,
+    *,
+    keyframe: str | None = None,
+    state: Any = None,
+    direction: int | None = None,
+    zeros: Mapping[str, float] | None = None,
+    stop: Callable[[Point], str | None] | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Branch:
+    """Follow a curve of equilibria in one parameter, locating and verifying its special points.
+
+    Parameters
+    ----------
+    problem : Mechanism or VectorField
+    parameter : str
+        The parameter to vary, by name or path.
+    bounds : (low, high), optional
+        Its range; default the parameter's own.
+    start : dict of parameter values, or a point of any result
+        Other parameters keep the model's values.
+    keyframe, state : optional
+        Where to look for the first equilibrium; default the start point's state, or qpos0 (u0).
+    direction : {None, +1, -1}
+        Both directions from the start, or only that in which the parameter first grows or falls.
+    zeros : dict of column to value, optional
+        Observables whose passing of a value is located and labelled UZ.
+    stop : callable, optional
+        `stop(point)` returns a sentence to end the curve there.
+    progress : callable, optional
+        `progress(count, special)` after each point and special point.
+    **options
+        Fields of `Settings`: ds, ds_min, ds_max, angle, max_points, ...
+
+    Returns
+    -------
+    Branch
+
+    Raises
+    ------
+    NameLookupError, BoundsError, StartError, ParameterError
+        See their messages. Failure of the continuation itself is no exception but the branch's status.
+    """
+    settings = make_settings(options)
+    low, high = check_bounds(problem, parameter, bounds)
+    x, values = start_from(problem, start, keyframe, state)
+    if not low <= values[parameter] <= high:
+        unit = problem.parameter(parameter).unit
+        raise BoundsError(
+            f"the start has {parameter} = {show(values[parameter], unit)}, outside the bounds "
+            f"{show(low, unit)} .. {show(high, unit)}: give start={{'{parameter}': ...}} inside them"
+        )
+    if direction not in (None, 1, -1):
+        raise ParameterError(f"direction must be None, +1 or -1, got {direction!r}")
+    found = find_start(problem, x, values)
+    origin = _start_name(start, keyframe, state)
+    if found.failure:
+        raise StartError(f"no equilibrium found from {origin}: {found.failure}")
+    system = System(problem, values, [Free(parameter, low, high)])
+    neutral: list[Located] = []
+    detectors = equilibrium_detectors(system, settings, neutral, zeros or {})
+    walker = Walker(system, settings, detectors, _point_stop(problem, system, stop))
+    directions = (-1.0, 1.0) if direction is None else (float(direction),)
+    traces = run_directions(walker, found.x, system.start_y(), directions, progress)
+    origin = f"{origin}, by Newton" if found.method == "newton" else f"{origin}, by damped motion to rest"
+    return collect("equilibria", system, traces, directions, f"from {origin}", settings, neutral)
+
+
+def _point_stop(
+    problem: Any, system: System, stop: Callable[[Point], str | None] | None
+) -> Callable[[CurvePoint], str | None] | None:
+    if stop is None:
+        return None
+    return lambda p: stop(make_point(problem, p.x, system.values(p.y)))
+
+
+def equilibrium_detectors(
+    system: System, settings: Settings, neutral: list[Located], zeros: Mapping[str, float]
+) -> list[Detector]:
+    """Return the detectors of a curve of equilibria, the one that guards against other branches first."""
+    detectors: list[Detector] = [
+        BranchPointDetector(system, settings),
+        fold_detector(system, settings),
+        HopfDetector(system, settings, neutral),
+    ]
+    for name, value in zeros.items():
+        monitor = monitor_of(system.problem, name, value)
+        detectors.append(zero_detector(system, monitor, f"{name} = {value:g}", settings))
+    return detectors
+
+
+def monitor_of(problem: Any, name: str, value: float) -> Callable[[Array, Values], float]:
+    """Return the function (x, p) -> column - value for an observable or parameter."""
+    if name in problem.parameters:
+        return lambda x, values: values[name] - value
+    problem.observable(name)
+    return lambda x, values: float(problem.measure(x[None], values, [name])[0, 0]) - value
+
+
+def points_at(branch: Branch, name: str, value: float) -> list[Point]:
+    """Return the points of a branch of equilibria at which a column has a value, corrected to it."""
+    if branch.problem is None:
+        raise MjcontError("the branch was loaded without its problem: mc.load(path, problem=...)")
+    if branch.kind != "equilibria":
+        raise MjcontError("at() works on branches of equilibria; on a locus use its special points or rows")
+    column = branch[name] - value
+    found: list[Point] = []
+    for i in range(len(branch) - 1):
+        a, b = column[i], column[i + 1]
+        if a == 0.0 or a * b < 0:
+            point = _point_between(branch, i, a / (a - b) if a else 0.0, name, value)
+            if point is not None:
+                found.append(point)
+    if len(branch) and column[-1] == 0.0:
+        found.append(branch.row(len(branch) - 1))
+    return found
+
+
+def _point_between(branch: Branch, i: int, fraction: float, name: str, value: float) -> Point | None:
+    problem = branch.problem
+    step = problem.difference(branch.states[i + 1], branch.states[i])
+    x = problem.retract(branch.states[i], fraction * step)
+    free = [Free(n, *b) for n, b in branch.free.items()]
+    between = {n: float((1 - fraction) * branch[n][i] + fraction * branch[n][i + 1]) for n in branch.free}
+    base = {**branch.fixed, **between}
+    if name in branch.free:
+        system, y = System(problem, {**base, name: value}, ()), np.zeros(0)
+    else:
+        equilibria = System(problem, base, free)
+        at = Corrected(x, equilibria.start_y(), equilibria.local(x, equilibria.start_y()), None, 0, 0.0, 0.0, 0.0)
+        system, y = square_system(equilibria, [ScalarZero(monitor_of(problem, name, value))], at)
+    c = solve(system, x, y)
+    return None if c.failure else make_point(problem, c.x, system.values(c.y))
