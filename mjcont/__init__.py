@@ -13,6 +13,7 @@ from importlib import metadata as _metadata
 
 from mjcont.branch import Branch, Column, Point, SpecialPoint
 from mjcont.continuation import continue_equilibria, find_equilibrium
+from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
 from mjcont.errors import (
     BoundsError,
     MjcontError,
@@ -23,6 +24,7 @@ from mjcont.errors import (
     StartError,
     StudyError,
 )
+from mjcont.loci import continue_special
 from mjcont.mechanism import Mechanism
 from mjcont.numerics.settings import Settings
 from mjcont.storage import load
@@ -37,6 +39,7 @@ __all__ = [
     "BoundsError",
     "Branch",
     "Column",
+    "Diagram",
     "Mechanism",
     "MjcontError",
     "ModelError",
@@ -49,7 +52,10 @@ __all__ = [
     "StartError",
     "StudyError",
     "VectorField",
+    "bifurcation_diagram",
     "continue_equilibria",
+    "continue_special",
     "find_equilibrium",
     "load",
+    "switch_branches",
 ]

@@ -145,6 +145,9 @@ class Branch:
     start : how the first equilibrium was reached, a sentence.
     settings, provenance : mappings.
     problem : the Mechanism or VectorField, or None for a loaded file without one.
+    start_index : row of the start.
+    neutral_saddles : where two real eigenvalues of opposite sign were seen, by free parameter: no Hopf points.
+    notes : sentences on the branch as a whole.
     """
 
     kind: str
@@ -166,6 +169,7 @@ class Branch:
     problem: Any = field(repr=False, default=None)
     start_index: int = 0
     neutral_saddles: Sequence[Mapping[str, float]] = ()
+    notes: Sequence[str] = ()
 
     def __len__(self) -> int:
         """Return the number of points."""
@@ -291,6 +295,7 @@ class Branch:
         if self.kind == "equilibria":
             lines.append("  stability: " + self._stability_runs())
         lines += [f"  {p}" for p in self.special_points] or ["  no special points"]
+        lines += [f"  note: {n}" for n in self.notes]
         lines += [f"  {which} end: {word}: {sentence}" for which, (word, sentence) in zip(
             ("first", "last"), self.ends, strict=False)]
         return "\n".join(lines)

@@ -61,9 +61,12 @@ def _found(system: System, item: Located) -> Found:
 
 
 def run_directions(
-    walker: Walker, x: Array, y: Array, directions: Sequence[float], progress: Progress | None
+    walker: Walker, x: Array, y: Array, directions: Sequence[float], progress: Progress | None, lead: int = 0
 ) -> list[Trace]:
-    """Walk from a start in the directions given; a closed curve or an interrupt ends after the first."""
+    """Walk from a start in the directions given; a closed curve or an interrupt ends after the first.
+
+    The direction is that in which the free parameter `lead` first moves.
+    """
     traces: list[Trace] = []
     count = 0
 
@@ -76,11 +79,12 @@ def run_directions(
     for direction in directions:
         if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
             break
-        first = first_point(walker.system, x, y, direction, walker.settings)
-        if isinstance(first, str):
-            traces.append(Trace([], [], End(Status.NO_START, f"the curve could not be entered: {first}")))
-            continue
-        traces.append(trace(walker, first, report))
+        with np.errstate(all="ignore"):  # a state that overflows fails its step; that is reported as such
+            first = first_point(walker.system, x, y, direction, walker.settings, lead)
+            if isinstance(first, str):
+                traces.append(Trace([], [], End(Status.NO_START, f"the curve could not be entered: {first}")))
+                continue
+            traces.append(trace(walker, first, report))
     return traces
 
 
@@ -130,7 +134,8 @@ def build_branch(
     origin: str,
     start_index: int,
     settings: Settings,
-    neutral: Sequence[Located],
+    neutral: Sequence[Located] = (),
+    notes: Sequence[str] = (),
 ) -> Branch:
     """Return the branch of ordered curve points: columns, spectra, labelled special points, provenance."""
     problem: Any = system.problem
@@ -149,7 +154,7 @@ def build_branch(
     eigenvalues = np.full((len(rows), width), complex(np.nan, np.nan))
     for i, s in enumerate(spectra):
         eigenvalues[i, : len(s.eigenvalues)] = s.eigenvalues
-    stability = np.array([s.stability for s in spectra])
+    stability = np.array([s.stability for s in spectra], dtype="U8")
     stability[[i for i, (_, e) in enumerate(rows) if e is not None and e.kind in ("LP", "HB", "BP")]] = "marginal"
     branch = Branch(
         kind=kind,
@@ -173,6 +178,7 @@ def build_branch(
         neutral_saddles=[
             {n: v for n, v in system.values(e.point.y).items() if n in system.names} for e in neutral
         ],
+        notes=tuple(notes),
     )
     object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows)))
     object.__setattr__(branch, "start", _describe_start(branch, origin))

@@ -20,7 +20,7 @@ from mujoco.batch import Batch
 
 from mjcont import loading
 from mjcont.errors import BoundsError, NameLookupError, ParameterError, unknown_name
-from mjcont.numerics.differences import PARAMETER, jacobian_from_rows, jacobian_steps, stencil
+from mjcont.numerics.differences import CENTRED, PARAMETER, Stencil, jacobian_from_rows, jacobian_steps, stencil
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
 from mjcont.observables import Observable, model_observables
 from mjcont.parameters import (
@@ -196,20 +196,25 @@ class Mechanism:
         self._writer.write(self.parameters, values)
         return Linearization(f, jac, par)
 
+    def parameter_stencil(self, name: str, value: float) -> tuple[Stencil, float]:
+        """Return the difference rule and step for derivatives in a parameter.
+
+        Forces are affine in controls, stiffnesses and the like, where two points are exact for any step.
+        """
+        parameter = self.parameters[name]
+        size = abs(value) if abs(value) > 1e-6 else max(abs(b) for b in parameter.bounds)
+        if parameter.affine:
+            return CENTRED, max(1.0, abs(value)) if parameter.kind == "control" else 0.1 * size
+        if parameter.unit == "rad":
+            return PARAMETER, PARAMETER.step
+        return PARAMETER, PARAMETER.step * size
+
     def _parameter_derivative(self, x: Array, values: Values, name: str) -> Array:
-        """Return d tau/dp, (nv,): exact for controls, which act linearly; otherwise by a fourth-order difference."""
-        parameter, p = self.parameters[name], values[name]
-        if parameter.kind == "control":
-            offsets: tuple[float, ...] = (1.0, 0.0)
-            weights: tuple[float, ...] = (1.0, -1.0)
-            h = max(1.0, abs(p))
-        else:
-            offsets, weights = PARAMETER.offsets, PARAMETER.weights
-            h = PARAMETER.step * (abs(p) if abs(p) > 1e-6 else max(abs(b) for b in parameter.bounds))
-            h = min(h, PARAMETER.step) if parameter.unit == "rad" else h
+        """Return d tau/dp, (nv,)."""
+        rule, h = self.parameter_stencil(name, values[name])
         total = np.zeros(self.n)
-        for offset, weight in zip(offsets, weights, strict=True):
-            self._writer.write(self.parameters, {name: p + offset * h})
+        for offset, weight in zip(rule.offsets, rule.weights, strict=True):
+            self._writer.write(self.parameters, {name: values[name] + offset * h})
             total += weight * self._forces(x[None])[0]
         return total / h
 

@@ -55,7 +55,7 @@ def _tendon_unit(model: mujoco.MjModel, tendon: int) -> str:
     """Return rad for a fixed tendon over hinges only, else m."""
     first = model.tendon_adr[tendon]
     wraps = range(first, first + model.tendon_num[tendon])
-    kinds = {model.wrap_type[w] for w in wraps}
+    kinds = {mujoco.mjtWrap(model.wrap_type[w]) for w in wraps}
     if kinds == {mujoco.mjtWrap.mjWRAP_JOINT} and all(joint_unit(model, model.wrap_objid[w]) == "rad" for w in wraps):
         return "rad"
     return "m"
@@ -64,7 +64,7 @@ def _tendon_unit(model: mujoco.MjModel, tendon: int) -> str:
 def _force_unit(model: mujoco.MjModel, actuator: int) -> str:
     target = model.actuator_trnid[actuator, 0]
     joints = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
-    if model.actuator_trntype[actuator] in joints:
+    if mujoco.mjtTrn(model.actuator_trntype[actuator]) in joints:
         return "N" if joint_unit(model, target) == "m" else "N*m"
     return "N" if model.actuator_gear[actuator, :3].any() else "N*m"
 
@@ -103,7 +103,7 @@ def model_observables(model: mujoco.MjModel) -> dict[str, Observable]:
             aliases[declaration.name] = Observable(declaration.name, unit, found[sensor].function)
     found = aliases | found
     for j in range(model.njnt):
-        if model.jnt_type[j] in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
+        if mujoco.mjtJoint(model.jnt_type[j]) in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
             name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, j) or f"joint{j}"
             if name not in found:
                 found[name] = Observable(name, joint_unit(model, j), _joint_reader(int(model.jnt_qposadr[j])))

@@ -41,6 +41,19 @@ _RENAMED = {
     ("tendon", "springlength"): "tendon_lengthspring",
     ("joint", "springref"): "qpos_spring",
 }
+# fields in which the forces are affine, so that two points give an exact derivative
+_AFFINE = frozenset(
+    {
+        "ctrl",
+        "jnt_stiffness",
+        "dof_damping",
+        "qpos_spring",
+        "tendon_stiffness",
+        "tendon_damping",
+        "actuator_biasprm",
+        "actuator_gainprm",
+    }
+)
 _DERIVED_CONSTANTS = frozenset(mujoco.MjModel._setconst_inputs)
 
 
@@ -80,6 +93,11 @@ class Parameter:
     kind: str
     targets: tuple[Target, ...] = ()
     hard_bounds: tuple[float, float] = (-math.inf, math.inf)
+
+    @property
+    def affine(self) -> bool:
+        """Whether the generalised forces are affine in the parameter."""
+        return bool(self.targets) and all(t.field in _AFFINE for t in self.targets)
 
     @property
     def needs_constants(self) -> bool:

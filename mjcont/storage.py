@@ -70,6 +70,7 @@ def _write(branch: Branch, path: Path) -> None:
             free=json.dumps(branch.free),
             ends=json.dumps(list(branch.ends)),
             neutral_saddles=json.dumps(list(branch.neutral_saddles)),
+            notes=json.dumps(list(branch.notes)),
         )
         f.attrs.update({f"provenance_{k}": v for k, v in branch.provenance.items()})
         mjcf = getattr(branch.problem, "mjcf", None)
@@ -156,7 +157,7 @@ def _read(f: h5py.File, problem: Any) -> Branch:
         states=f["states"][()],
         state_labels=labels,
         eigenvalues=f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()],
-        stability=np.array([words[int(c)] for c in f["stability"][()]]),
+        stability=np.array([words[int(c)] for c in f["stability"][()]], dtype="U8"),
         n_unstable=f["n_unstable"][()].astype(int),
         residuals=f["residuals"][()],
         special_points=(),
@@ -171,6 +172,7 @@ def _read(f: h5py.File, problem: Any) -> Branch:
         problem=problem,
         start_index=int(f.attrs["start_index"]),
         neutral_saddles=json.loads(f.attrs["neutral_saddles"]),
+        notes=json.loads(f.attrs["notes"]),
     )
     points = [_read_special(f["special_points"][label], label, branch) for label in f["special_points"]]
     object.__setattr__(branch, "special_points", tuple(sorted(points, key=lambda p: p.index)))

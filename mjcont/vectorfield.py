@@ -12,6 +12,7 @@ from mjcont.errors import ParameterError, unknown_name
 from mjcont.numerics.differences import (
     FOURTH_ORDER,
     PARAMETER,
+    Stencil,
     jacobian_from_rows,
     jacobian_steps,
 )
@@ -125,10 +126,15 @@ class VectorField:
             jac = jacobian_from_rows(self.residuals(x, values, steps), self.state_scale, FOURTH_ORDER)
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
-            h = PARAMETER.step * max(abs(values[name]), 1e-2)
-            rows = [self.residual(x, {**values, name: values[name] + o * h}) for o in PARAMETER.offsets]
-            par[:, k] = np.asarray(PARAMETER.weights) @ np.array(rows) / h
+            rule, h = self.parameter_stencil(name, values[name])
+            rows = [self.residual(x, {**values, name: values[name] + o * h}) for o in rule.offsets]
+            par[:, k] = np.asarray(rule.weights) @ np.array(rows) / h
         return Linearization(f, jac, par)
+
+    def parameter_stencil(self, name: str, value: float) -> tuple[Stencil, float]:
+        """Return the fourth-order rule and a step relative to the parameter's value."""
+        del name
+        return PARAMETER, PARAMETER.step * max(abs(value), 1e-2)
 
     def pencil(self, x: Array, values: Values, jac: Any) -> Pencil:
         """Return the pencil of a first-order system: M = 0, C = I, K = -df/du."""

@@ -71,8 +71,10 @@ def point_from(c: Corrected, reference: Array, s: float) -> CurvePoint:
     )
 
 
-def first_point(system: System, x: Array, y: Array, direction: float, settings: Settings) -> CurvePoint | str:
-    """Return the point of the curve nearest to (x, y), its first free parameter growing for direction > 0.
+def first_point(
+    system: System, x: Array, y: Array, direction: float, settings: Settings, lead: int = 0
+) -> CurvePoint | str:
+    """Return the point of the curve nearest to (x, y), the free parameter `lead` growing for direction > 0.
 
     Returns a sentence where the corrector fails.
     """
@@ -80,7 +82,8 @@ def first_point(system: System, x: Array, y: Array, direction: float, settings: 
     c = correct(system, x, y, tangent, None, settings)
     if c.failure:
         return c.failure
-    component = tangent[system.n] if abs(tangent[system.n]) > 1e-8 else tangent[np.argmax(np.abs(tangent))]
+    lead += system.n
+    component = tangent[lead] if abs(tangent[lead]) > 1e-8 else tangent[np.argmax(np.abs(tangent))]
     if component * direction < 0:
         tangent = -tangent
         c = correct(system, c.x, c.y, tangent, None, settings)

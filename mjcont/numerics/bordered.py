@@ -14,13 +14,13 @@ from mjcont.numerics.problem import Array
 _TINY = 1e-300
 
 
-def row_scale(matrix: Any) -> Array:
-    """Return 1 / (largest entry of each row), guarded against empty rows, (m,)."""
+def row_scale(matrix: Any, guard: float = 1e-8) -> Array:
+    """Return 1 / (largest entry of each row), rows below `guard` of the largest counting as that large, (m,)."""
     largest = abs(matrix).max(axis=1)
     if sparse.issparse(largest):
         largest = largest.toarray().ravel()
     top = float(largest.max()) if largest.size else 1.0
-    return 1.0 / np.maximum(largest, max(1e-14 * top, _TINY))
+    return 1.0 / np.maximum(largest, max(guard * top, _TINY))
 
 
 class Factored:

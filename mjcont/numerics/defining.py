@@ -23,12 +23,12 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.bordered import Factored, border, null_vectors, row_scale
-from mjcont.numerics.differences import bilinear_gradient, second_form
+from mjcont.numerics.differences import bilinear_gradient, directional, second_form
 from mjcont.numerics.problem import Array
 from mjcont.numerics.system import Free, Local, System
 
-_PARAMETER_STEP = 1e-3
-_DIRECTION_STEP = 1e-3
+# a row of J may vanish at a special point: it must not be blown up on the way there
+_ROW_GUARD = 1e-3
 
 
 class Fold:
@@ -37,7 +37,7 @@ class Fold:
     count, aux, unfolds = 1, (), False
 
     def __init__(self, local: Local) -> None:
-        self.rows = row_scale(local.jac)
+        self.rows = row_scale(local.jac, _ROW_GUARD)
         v, w = null_vectors(self._scaled(local))
         self.b, self.c = w[:, 0], v[:, 0]
         self._cache: tuple[Local, Array, Array, float] | None = None
@@ -69,8 +69,9 @@ class Fold:
         v, w = self.physical(local)
         out = np.empty(system.n + len(system.free))
         out[: system.n] = -bilinear_gradient(local.problem, local.x, local.values, w, v)
-        for i in range(len(system.free)):
-            out[system.n + i] = -parameter_slope(lambda at: float(w @ _derivative_along(at, v)), local, system, y, i)
+        for i, p in enumerate(system.free):
+            slope = parameter_slope(lambda at: float(w @ directional(at.problem, at.x, at.values, v, 1)), local, p.name)
+            out[system.n + i] = -slope * p.slope(float(y[i]))
         return out[None]
 
     def update(self, local: Local, aux: Array) -> None:
@@ -80,23 +81,14 @@ class Fold:
         self._cache = None
 
 
-def _derivative_along(local: Local, v: Array) -> Array:
-    """Return (df/dx) v by a centred difference of two evaluations."""
-    size = np.max(np.abs(v) / local.problem.state_scale)
-    h = _DIRECTION_STEP / size
-    plus, minus = local.problem.residuals(local.x, local.values, np.array([h * v, -h * v]))
-    return (plus - minus) / (2.0 * h)
-
-
-def parameter_slope(function: Callable[[Local], float], local: Local, system: System, y: Array, i: int) -> float:
-    """Return d function / d y[i] for a free parameter's coordinate, centred."""
-    h, total = _PARAMETER_STEP, 0.0
-    for sign in (1.0, -1.0):
-        y1 = y.copy()
-        y1[i] += sign * h
-        moved = Local(local.problem, local.x, system.values(y1), system.names, local.accurate)
-        total += sign * function(moved)
-    return total / (2.0 * h)
+def parameter_slope(function: Callable[[Local], float], local: Local, name: str) -> float:
+    """Return d function / d p for a parameter, in physical units, by differences in p."""
+    rule, h = local.problem.parameter_stencil(name, local.values[name])
+    total = 0.0
+    for offset, weight in zip(rule.offsets, rule.weights, strict=True):
+        values = {**local.values, name: local.values[name] + offset * h}
+        total += weight * function(Local(local.problem, local.x, values, local.wrt, local.accurate))
+    return total / h
 
 
 class BranchPoint:
@@ -109,7 +101,7 @@ class BranchPoint:
 
     def __init__(self, local: Local, parameter: Free) -> None:
         self.parameter = parameter
-        self.rows = row_scale(local.jac)
+        self.rows = row_scale(local.jac, _ROW_GUARD)
         if sparse.issparse(local.jac):
             v, w = null_vectors(self._square(local))
             self.c = np.zeros((2, len(v) + 1))
@@ -174,7 +166,7 @@ class Hopf:
 
     def _row_scale(self, local: Local) -> Array:
         mass, damping, stiffness = self._unscaled(local)
-        return row_scale(np.abs(stiffness) + np.abs(damping) + np.abs(mass))
+        return row_scale(np.abs(stiffness) + np.abs(damping) + np.abs(mass), _ROW_GUARD)
 
     def _unscaled(self, local: Local) -> tuple[Array, Array, Array]:
         scale = local.problem.state_scale

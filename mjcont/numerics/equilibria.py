@@ -74,7 +74,11 @@ class BranchPointDetector:
         slope = self.system.free[0].slope(float(c.y[0]))
         crossing = normalform.crossing(c.local, kernel, w, slope)
         point = point_at(self.system, old, new, c, s)
-        return Located("BP", point, c.step, True, {"type": crossing.kind, "tangents": crossing.tangents, "w": w})
+        data: dict[str, Any] = {"type": crossing.kind, "tangents": np.array(crossing.tangents), "w": w}
+        if crossing.kind == "pitchfork":
+            data["c"] = normalform.pitchfork_coefficient(c.local, w)
+            data["type"] = f"{'super' if data['c'] < 0 else 'sub'}critical pitchfork"
+        return Located("BP", point, c.step, True, data)
 
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
         """Return the branch point between the points.

@@ -149,9 +149,12 @@ class ZeroDetector:
     finish: Callable[[Corrected], tuple[dict[str, Any], str] | None]
     settings: Settings
     name: str = ""
+    differs: Callable[[CurvePoint, CurvePoint], bool] | None = None
 
     def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
-        """Whether the test changes sign."""
+        """Whether the test changes sign, or differs as told."""
+        if self.differs is not None:
+            return self.differs(old, new)
         a, b = self._value(old), self._value(new)
         return a * b < 0 or (b == 0.0 and a != 0.0)
 

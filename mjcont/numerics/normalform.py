@@ -112,6 +112,32 @@ def _eigenvectors(jac: Array, omega: float) -> tuple[Array, Array]:
     return q, p / np.vdot(q, p)
 
 
+def double_zero_coefficients(problem: Problem, x: Array, values: Values) -> dict[str, float]:
+    """Return a, b of the Bogdanov-Takens normal form x'' = a x^2 + b x x' of the first-order form.
+
+    a = p1 . B(q0, q0) / 2, b = p0 . B(q0, q0) + p1 . B(q0, q1) with the generalised eigenvectors J q0 = 0,
+    J q1 = q0, J' p1 = 0, J' p0 = p1, <p0, q0> = <p1, q1> = 1, <p0, q1> = 0 (Kuznetsov, section 8.4).
+    """
+    form = _FirstOrder(problem, x, values)
+    jac = form.jacobian()
+    u, _, vt = np.linalg.svd(jac)
+    q0, p1 = vt[-1], u[:, -1]
+    full = np.block([[jac, p1[:, None]], [q0[None], np.zeros((1, 1))]])
+    q1 = np.linalg.solve(full, np.append(q0, 0.0))[:-1]
+    p1 = p1 / (p1 @ q1)
+    p0 = np.linalg.solve(full.T, np.append(p1, 0.0))[:-1]
+    p0 = p0 - (p0 @ q1) * p1
+    b00, b01 = form.second(q0, q0), form.second(q0, q1)
+    return {"a": float(0.5 * p1 @ b00), "b": float(p0 @ b00 + p1 @ b01)}
+
+
+def pitchfork_coefficient(local: Local, w: Array) -> float:
+    """Return the cubic coefficient c of x' = b mu x + c x^3: supercritical for c < 0."""
+    jac = local.raw_jac.toarray() if sparse.issparse(local.raw_jac) else local.raw_jac
+    v = np.linalg.svd(jac)[2][-1]
+    return cusp_coefficient(local, v, w)
+
+
 @dataclass(frozen=True, slots=True)
 class Crossing:
     """What happens at a simple branch point.

@@ -78,6 +78,10 @@ class Problem(Protocol):
         """Return f, df/dx and df/dp; `accurate` asks for the error that locating special points needs."""
         ...
 
+    def parameter_stencil(self, name: str, value: float) -> tuple[Any, float]:
+        """Return the difference rule (see `differences.Stencil`) and step for derivatives in a parameter."""
+        ...
+
     def pencil(self, x: Array, values: Values, jac: Any) -> Pencil:
         """Return the matrices whose eigenvalues tell stability; `jac` is df/dx there."""
         ...

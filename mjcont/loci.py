@@ -1,0 +1,146 @@
+"""The verb `continue_special`: a special point followed in one more parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from mjcont.branch import Branch, SpecialPoint, show
+from mjcont.collect import Progress, collect, run_directions
+from mjcont.continuation import check_bounds, make_settings, monitor_of
+from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.numerics.equilibria import zero_detector
+from mjcont.numerics.events import Detector
+from mjcont.numerics.loci import conditions_of, fold_locus_detectors, hopf_locus_detectors, unfolding_stop
+from mjcont.numerics.settings import Settings
+from mjcont.numerics.system import Free, Local, System
+from mjcont.numerics.trace import Walker
+
+CONTINUABLE = ("LP", "HB", "BP", "CP", "BT", "ZH")
+_NAMES = {"LP": "fold", "HB": "Hopf", "BP": "branch-point", "CP": "cusp", "BT": "Bogdanov-Takens", "ZH": "zero-Hopf"}
+_CODIMENSION = {"LP": 1, "HB": 1, "BP": 1, "CP": 2, "BT": 2, "ZH": 2}
+
+
+def continue_special(
+    point: SpecialPoint,
+    parameter: str,
+    bounds: tuple[float, float] | Mapping[str, tuple[float, float]] | None = None,
+    *,
+    direction: int | None = None,
+    end_at: Sequence[str] | None = None,
+    zeros: Mapping[str, float] | None = None,
+    lyapunov: bool = True,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Branch:
+    """Follow a special point in one more parameter; the parameters of its own curve stay free.
+
+    Parameters
+    ----------
+    point : SpecialPoint
+        An LP, HB or BP of a branch gives its curve in two parameters; a CP, BT or ZH of such a curve its own curve
+        in three.
+    parameter : str
+        The parameter that is freed.
+    bounds : (low, high), or a mapping of free parameters to bounds
+        Range of `parameter`; the others keep the bounds of the point's curve unless given here.
+    direction : {None, +1, -1}
+        Both directions, or that in which `parameter` first grows or falls.
+    end_at : kinds of points that end the locus; default BT on a Hopf locus (beyond it lie neutral saddles).
+    zeros : columns whose passing of a value is located and labelled UZ.
+    lyapunov : whether l1 is computed along a Hopf locus (needed for GH).
+
+    Returns
+    -------
+    Branch
+        Its `kind` says which locus. On a fold locus CP, BT, ZH and BP (w . f_p = 0) are located, on a Hopf locus
+        BT, ZH, HH and GH.
+
+    Raises
+    ------
+    MjcontError, BoundsError, NameLookupError, ParameterError
+        See their messages.
+    """
+    problem = point.problem
+    if point.kind not in CONTINUABLE:
+        raise MjcontError(
+            f"a point of kind {point.kind or 'regular'} has no curve to follow. Valid kinds: {', '.join(CONTINUABLE)}."
+        )
+    if problem is None:
+        raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
+    settings = make_settings(options)
+    free = free_parameters(point, parameter, bounds)
+    kind = "LP" if point.kind == "BP" and point.curve == "LP locus" else point.kind
+    if kind == "LP" and len(free) > 2:
+        free = [p for p in free if p.name != list(point.free)[-1]] if point.kind == "BP" else free
+    if len(free) != _CODIMENSION[kind] + 1:
+        raise MjcontError(
+            f"{point.label} lies on a curve in {len(free) - 1} parameters: a {_NAMES[kind]} curve has "
+            f"{_CODIMENSION[kind] + 1} free parameters, this would have {len(free)}"
+        )
+    system = locus_system(point, kind, free)
+    stop: Callable[[Any], str | None] | None = unfolding_stop(system) if kind == "BP" else None
+    detectors = _detectors(kind, system, settings, lyapunov, zeros or {})
+    ends = frozenset(end_at if end_at is not None else (("BT",) if kind == "HB" else ()))
+    walker = Walker(system, settings, detectors, stop, ends)
+    directions = _directions(direction)
+    lead = len(free) - 1
+    traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
+    where = ", ".join(f"{p.name} = {show(point.parameters[p.name], problem.parameter(p.name).unit)}" for p in free)
+    return collect(f"{kind} locus", system, traces, directions, f"from {point.label} at {where}", settings)
+
+
+def _directions(direction: int | None) -> tuple[float, ...]:
+    if direction not in (None, 1, -1):
+        raise ParameterError(f"direction must be None, +1 or -1, got {direction!r}")
+    return (-1.0, 1.0) if direction is None else (float(direction),)
+
+
+def free_parameters(
+    point: SpecialPoint, parameter: str, bounds: tuple[float, float] | Mapping[str, tuple[float, float]] | None
+) -> list[Free]:
+    """Return the parameters of the point's curve and the new one, each with its bounds."""
+    problem: Any = point.problem
+    given = dict(bounds) if isinstance(bounds, Mapping) else ({} if bounds is None else {parameter: bounds})
+    if parameter in point.free:
+        raise ParameterError(f"{parameter} is already free on the curve of {point.label}: name another parameter")
+    names = [*point.free, parameter]
+    for name in given:
+        if name not in names:
+            raise ParameterError(f"bounds are given for '{name}', which is not free here. Free: {', '.join(names)}.")
+    free = []
+    for name in names:
+        low, high = check_bounds(problem, name, given.get(name, point.free.get(name)))
+        value, unit = point.parameters[name], problem.parameter(name).unit
+        if not low <= value <= high:
+            raise BoundsError(
+                f"{point.label} has {name} = {show(value, unit)}, outside the bounds "
+                f"{show(low, unit)} .. {show(high, unit)}"
+            )
+        free.append(Free(name, low, high))
+    return free
+
+
+def locus_system(point: SpecialPoint, kind: str, free: Sequence[Free]) -> System:
+    """Return the system whose solutions are the curve through a special point."""
+    problem: Any = point.problem
+    values = problem.values(point.parameters)
+    plain = System(problem, values, free)
+    local = Local(problem, point.state, values, plain.names, True)
+    square = float(point.coefficients["omega"]) ** 2 if "omega" in point.coefficients else None
+    return System(problem, values, free, conditions_of(kind, local, plain, square), accurate=True)
+
+
+def _detectors(
+    kind: str, system: System, settings: Settings, lyapunov: bool, zeros: Mapping[str, float]
+) -> list[Detector]:
+    found: list[Detector] = []
+    if kind == "LP":
+        found += fold_locus_detectors(system, system.conditions[0], settings)  # type: ignore[arg-type]
+    elif kind == "HB":
+        found += hopf_locus_detectors(system, system.conditions[0], settings, lyapunov=lyapunov)  # type: ignore[arg-type]
+    for name, value in zeros.items():
+        found.append(zero_detector(system, monitor_of(system.problem, name, value), f"{name} = {value:g}", settings))
+    return found
+
+
