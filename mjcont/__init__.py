@@ -24,6 +24,7 @@ from mjcont.errors import (
     StartError,
     StudyError,
 )
+from mjcont.extend import extend
 from mjcont.loci import continue_special
 from mjcont.mechanism import Mechanism
 from mjcont.numerics.settings import Settings
@@ -55,6 +56,7 @@ __all__ = [
     "bifurcation_diagram",
     "continue_equilibria",
     "continue_special",
+    "extend",
     "find_equilibrium",
     "load",
     "switch_branches",

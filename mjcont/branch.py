@@ -28,6 +28,10 @@ KIND_NAMES = {
 }
 
 
+# observables that a summary line shows; all are in the columns
+_SHOWN = 5
+
+
 def show(value: float, unit: str, digits: int = 7) -> str:
     """Return a value with its unit; radians are shown in degrees."""
     if unit == "rad":
@@ -104,7 +108,7 @@ class SpecialPoint(Point):
     def __str__(self) -> str:
         """Return kind, parameters, observables, coefficients and the tolerance reached."""
         head = f"{self.label} ({KIND_NAMES.get(self.kind, self.kind)})"
-        names = [*self.free, *self.observables]
+        names = [*self.free, *list(self.observables)[:_SHOWN]]
         shown = ", ".join(f"{n} = {show(self[n], self.units.get(n, ''))}" for n in names)
         extra = "".join(f", {k} = {_short(v)}" for k, v in self.coefficients.items())
         state = f"located to {self.tolerance:.1e}" if self.converged else "not converged: a guess"

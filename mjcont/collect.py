@@ -60,6 +60,21 @@ def _found(system: System, item: Located) -> Found:
     return Found(item.kind, {n: values[n] for n in system.names}, observables)
 
 
+def reporter(system: System, progress: Progress | None) -> Callable[[CurvePoint | Located | End], None] | None:
+    """Return what a trace calls for each item, so that `progress` hears of points and special points."""
+    if progress is None:
+        return None
+    count = 0
+
+    def report(item: CurvePoint | Located | End) -> None:
+        nonlocal count
+        if not isinstance(item, End):
+            count += isinstance(item, CurvePoint)
+            progress(count, _found(system, item) if isinstance(item, Located) else None)
+
+    return report
+
+
 def run_directions(
     walker: Walker, x: Array, y: Array, directions: Sequence[float], progress: Progress | None, lead: int = 0
 ) -> list[Trace]:
@@ -68,14 +83,7 @@ def run_directions(
     The direction is that in which the free parameter `lead` first moves.
     """
     traces: list[Trace] = []
-    count = 0
-
-    def report(item: CurvePoint | Located | End) -> None:
-        nonlocal count
-        if progress is not None and not isinstance(item, End):
-            count += isinstance(item, CurvePoint)
-            progress(count, _found(walker.system, item) if isinstance(item, Located) else None)
-
+    report = reporter(walker.system, progress)
     for direction in directions:
         if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
             break
@@ -105,7 +113,7 @@ def collect(
     ends: list[tuple[str, str]] = []
     start_index = 0
     for run, direction in zip(traces, directions, strict=False):
-        ordered = _ordered(run)
+        ordered = ordered_rows(run)
         end = (run.end.status.value, run.end.message)
         if direction < 0:
             rows = ordered[::-1]
@@ -120,10 +128,12 @@ def collect(
     return build_branch(kind, system, rows, ends, origin, start_index, settings, neutral)
 
 
-def _ordered(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
+def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
+    """Return points and special points of a run in order; a closed curve ends where it began."""
     rows: list[tuple[CurvePoint, Located | None]] = [(p, None) for p in run.points]
     rows += [(e.point, e) for e in run.special]
-    return sorted(rows, key=lambda r: r[0].s)
+    rows = sorted(rows, key=lambda r: r[0].s)
+    return [*rows, rows[0]] if run.end.status is Status.CLOSED else rows
 
 
 def build_branch(

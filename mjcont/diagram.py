@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mjcont.branch import Branch, Point, SpecialPoint
-from mjcont.collect import Progress, build_branch
+from mjcont.collect import Progress, build_branch, ordered_rows, reporter
 from mjcont.continuation import check_bounds, continue_equilibria, equilibrium_detectors, make_settings
 from mjcont.errors import MjcontError
 from mjcont.numerics.arclength import CurvePoint, point_from
@@ -123,38 +123,20 @@ def _through(
         if isinstance(first, str):
             halves.append(Trace([], [], End(Status.NO_START, f"the branch could not be entered: {first}")))
             continue
-        halves.append(trace(walker, first, _reporter(progress)))
+        halves.append(trace(walker, first, reporter(system, progress)))
     if not any(h.points for h in halves):
         return None
     local = system.local(x, y)
     bp_point = CurvePoint(x, y, tangent, 0.0, local, Factored(with_row(system.jacobian(local, y), tangent)))
     known = {k: v for k, v in {**point.coefficients, **point.vectors}.items() if k in ("type", "c", "tangents", "w")}
     located = Located("BP", bp_point, point.tolerance, point.converged, known)
-    minus, plus = (_rows(h) for h in halves)
+    minus, plus = (ordered_rows(h) if h.points else [] for h in halves)
     rows: list[tuple[CurvePoint, Located | None]] = [*minus[::-1], (bp_point, located), *plus]
     ends = [(h.end.status.value, h.end.message) for h in halves]
     notes = ["its two halves are mirror images"] if _mirrored(system, minus, plus) else []
     return build_branch(
         "equilibria", system, rows, ends, f"through {point.label}", len(minus), settings, neutral, notes
     )
-
-
-def _reporter(progress: Progress | None) -> Any:
-    count = 0
-
-    def report(item: Any) -> None:
-        nonlocal count
-        if progress is not None and isinstance(item, CurvePoint):
-            count += 1
-            progress(count, None)
-
-    return report
-
-
-def _rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
-    rows: list[tuple[CurvePoint, Located | None]] = [(p, None) for p in run.points]
-    rows += [(e.point, e) for e in run.special]
-    return sorted(rows, key=lambda r: r[0].s)
 
 
 def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool:

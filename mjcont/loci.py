@@ -80,7 +80,7 @@ def continue_special(
         )
     system = locus_system(point, kind, free)
     stop: Callable[[Any], str | None] | None = unfolding_stop(system) if kind == "BP" else None
-    detectors = _detectors(kind, system, settings, lyapunov, zeros or {})
+    detectors = locus_detectors(kind, system, settings, lyapunov, zeros or {})
     ends = frozenset(end_at if end_at is not None else (("BT",) if kind == "HB" else ()))
     walker = Walker(system, settings, detectors, stop, ends)
     directions = _directions(direction)
@@ -131,9 +131,10 @@ def locus_system(point: SpecialPoint, kind: str, free: Sequence[Free]) -> System
     return System(problem, values, free, conditions_of(kind, local, plain, square), accurate=True)
 
 
-def _detectors(
+def locus_detectors(
     kind: str, system: System, settings: Settings, lyapunov: bool, zeros: Mapping[str, float]
 ) -> list[Detector]:
+    """Return the detectors of a locus of special points of a kind."""
     found: list[Detector] = []
     if kind == "LP":
         found += fold_locus_detectors(system, system.conditions[0], settings)  # type: ignore[arg-type]

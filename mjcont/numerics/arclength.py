@@ -151,6 +151,22 @@ def next_step(h: float, new: CurvePoint, settings: Settings) -> float:
     return min(h * min(by_angle, by_contraction(new), _GROWTH), settings.ds_max)
 
 
+def may_turn_twice(system: System, old: CurvePoint, new: CurvePoint, index: int) -> bool:
+    """Whether y[index] could have two extrema between points at which it moves the same way.
+
+    Judged on the cubic through both points with their tangents.
+    """
+    i = system.n + index
+    a, b = old.tangent[i], new.tangent[i]
+    if a * b <= 0:
+        return False
+    mean = system.difference(new.x, new.y, old.x, old.y)[i] / (new.s - old.s)
+    # derivative of the cubic: a + 2 (3 mean - 2 a - b) t + 3 (a + b - 2 mean) t^2
+    p, q = 3.0 * mean - 2.0 * a - b, 3.0 * (a + b - 2.0 * mean)
+    t = -p / q if q else -1.0
+    return bool(0.0 < t < 1.0 and (a + p * t) * a < 0)
+
+
 def by_contraction(new: CurvePoint) -> float:
     """Return the factor by which the contraction of the corrector lets the step grow."""
     return math.sqrt(_CONTRACTION / max(new.contraction, 1e-3)) if new.iterations > 1 else _GROWTH

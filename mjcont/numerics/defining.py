@@ -29,6 +29,7 @@ from mjcont.numerics.system import Free, Local, System
 
 # a row of J may vanish at a special point: it must not be blown up on the way there
 _ROW_GUARD = 1e-3
+_GENERIC = np.array([0.8, 0.6])
 
 
 class Fold:
@@ -159,10 +160,15 @@ class Hopf:
         n = local.problem.n
         matrix = self._block(local, self.aux[0])
         v, w = null_vectors(matrix, 2)
-        # Any vector q of the two-dimensional null space generates it over the algebra; the borders are the
-        # conjugates (s -> -s) of q and of the left vector p = w1 + s w0, which makes c'q and b'p sums of squares.
-        self.c0, self.c1 = v[:n, 0], -v[n:, 0]
-        self.b0, self.b1 = w[n:, 0], -w[:n, 0]
+        # A generic vector q of the two-dimensional null space generates it over the algebra, and so does the left
+        # vector p = w1 + s w0.
+        v, w = v @ _GENERIC, w @ _GENERIC
+        self._set_borders(v[:n], v[n:], w[n:], w[:n], self.aux[0])
+
+    def _set_borders(self, q0: Array, q1: Array, p0: Array, p1: Array, k: float) -> None:
+        """Take the conjugates (s -> -s) of q and p, or themselves where s is real: c'q and b'p are then units."""
+        sign = -1.0 if k >= 0 else 1.0
+        self.c0, self.c1, self.b0, self.b1 = q0, sign * q1, p0, sign * p1
 
     def _row_scale(self, local: Local) -> Array:
         mass, damping, stiffness = self._unscaled(local)
@@ -218,8 +224,7 @@ class Hopf:
         rhs[-2] = 1.0
         p = Factored(border(matrix, columns, rows)).solve(rhs)[:-2]
         q, p = q / np.linalg.norm(q), p / np.linalg.norm(p)
-        # conjugate (s -> -s) so that c'q and b'p are sums of squares where k > 0
-        self.c0, self.c1, self.b0, self.b1 = q[:n], -q[n:], p[:n], -p[n:]
+        self._set_borders(q[:n], q[n:], p[:n], p[n:], k)
 
 
 def dense_pencil(local: Local) -> tuple[Array, Array, Array]:

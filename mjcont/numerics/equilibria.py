@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mjcont.numerics import normalform
-from mjcont.numerics.arclength import CurvePoint
+from mjcont.numerics.arclength import CurvePoint, advance
 from mjcont.numerics.defining import BranchPoint, Fold, Hopf
 from mjcont.numerics.events import (
     Located,
@@ -30,6 +30,8 @@ from mjcont.numerics.system import System
 
 _NOT_TRANSVERSE = 1e-6
 _UNFOLDED = 1e-7
+_DEGENERATE = 1e-9
+_CLOSE = 1e-6
 
 
 def spectrum_of(point: CurvePoint) -> Spectrum:
@@ -136,8 +138,6 @@ class HopfDetector:
         return a.pair_count() != b.pair_count()
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
-        if abs(spectrum_of(old).pair_count() - spectrum_of(new).pair_count()) > 1 and new.s - old.s > 1e-6:
-            return None
         near = approximate(self.system, old, new, self._fraction(old, new), self.settings)
         if near.failure:
             return None
@@ -158,7 +158,7 @@ class HopfDetector:
             return Located("NS", point, c.step, True, {"square": square})
         omega = float(np.sqrt(square))
         l1 = normalform.first_lyapunov(self.system.problem, c.x, c.local.values, omega)
-        kind = "supercritical" if l1 < 0 else "subcritical"
+        kind = "degenerate" if abs(l1) < _DEGENERATE else "supercritical" if l1 < 0 else "subcritical"
         return Located("HB", point, c.step, True, {"omega": omega, "l1": l1, "type": kind})
 
     @staticmethod
@@ -168,6 +168,11 @@ class HopfDetector:
 
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
         """Return the Hopf points between the points; several are separated by bisection."""
+        if abs(spectrum_of(old).pair_count() - spectrum_of(new).pair_count()) > 1 and new.s - old.s > _CLOSE:
+            middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
+            if not isinstance(middle, str):
+                halves = [(a, b) for a, b in ((old, middle), (middle, new)) if self.changed(a, b)]
+                return [e for a, b in halves for e in self.locate(a, b, found)]
         result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
         if result is None:
             return []

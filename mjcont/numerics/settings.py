@@ -23,6 +23,8 @@ class Settings:
     max_corrections : int
         Corrector iterations before a step is given up.
     max_points, max_arclength, max_seconds : limits of one direction.
+    max_size : float
+        Largest scaled state coordinate, relative to the start's if that exceeds one: where a curve runs off.
     """
 
     ds: float = 0.01
@@ -35,6 +37,7 @@ class Settings:
     max_points: int = 5000
     max_arclength: float = math.inf
     max_seconds: float = math.inf
+    max_size: float = 100.0
 
     def __post_init__(self) -> None:
         if not 0 < self.ds_min <= self.ds <= self.ds_max:

@@ -10,10 +10,13 @@ from enum import Enum
 
 import numpy as np
 
-from mjcont.numerics.arclength import CurvePoint, advance, by_contraction, land, next_step
+from mjcont.numerics.arclength import CurvePoint, advance, by_contraction, land, may_turn_twice, next_step
 from mjcont.numerics.events import Detector, Located, Retry
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import System
+
+# below this step a pair of folds is not looked for between two points
+_SMALL_FOLDS = 1e-5
 
 
 class Status(Enum):
@@ -25,6 +28,7 @@ class Status(Enum):
     MAX_POINTS = "max points"
     MAX_ARCLENGTH = "max arclength"
     MAX_TIME = "max time"
+    RUNS_OFF = "runs off"
     STOPPED = "stopped"
     AT_SPECIAL_POINT = "at special point"
     INTERRUPTED = "interrupted"
@@ -75,8 +79,11 @@ class Walker:
         point, h, count = start, settings.ds, 1
         for detector in self.detectors:
             detector.changed(point, point)
+        largest = settings.max_size * max(1.0, self._size(start))
         while True:
             limit = self._limit(point, count, began)
+            if limit is None and self._size(point) > largest:
+                limit = End(Status.RUNS_OFF, f"a state coordinate exceeds {largest:g} times its scale (max_size)")
             if limit is not None:
                 yield limit
                 return
@@ -99,6 +106,10 @@ class Walker:
                 return
             self.system.update(new.local, new.y)
             point, count = new, count + 1
+
+    def _size(self, point: CurvePoint) -> float:
+        n = self.system.n  # positions of a free body carry a quaternion beside n coordinates: measure those alone
+        return float(np.max(np.abs(point.x[:n]) / self.system.problem.state_scale))
 
     def _limit(self, point: CurvePoint, count: int, began: float) -> End | None:
         settings = self.settings
@@ -128,6 +139,9 @@ class Walker:
                     else:
                         new, ending = landed, End(Status.AT_BOUND, outside[2])
             if not reason and not isinstance(new, str):
+                if not self.system.conditions and h > _SMALL_FOLDS and may_turn_twice(self.system, point, new, 0):
+                    h *= 0.4
+                    continue
                 try:
                     located = self._between(point, new)
                 except Retry:

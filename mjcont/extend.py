@@ -1,0 +1,198 @@
+"""Longer branches: `extend` goes on from the ends of a branch, computed just now or loaded from a file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from mjcont.branch import Branch, SpecialPoint
+from mjcont.collect import Progress, build_branch, ordered_rows, reporter
+from mjcont.continuation import check_bounds, equilibrium_detectors, make_settings
+from mjcont.errors import MjcontError, ParameterError
+from mjcont.loci import locus_detectors
+from mjcont.numerics.arclength import CurvePoint, first_point
+from mjcont.numerics.equilibria import critical_square
+from mjcont.numerics.loci import conditions_of, unfolding_stop
+from mjcont.numerics.problem import Array
+from mjcont.numerics.settings import Settings
+from mjcont.numerics.spectrum import spectrum
+from mjcont.numerics.system import Free, Local, System
+from mjcont.numerics.trace import Trace, Walker, trace
+from mjcont.storage import special_from_row
+
+_ENDS = ("first", "last")
+
+
+def extend(
+    branch: Branch,
+    bounds: tuple[float, float] | Mapping[str, tuple[float, float]] | None = None,
+    *,
+    ends: Sequence[str] = _ENDS,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Branch:
+    """Return the branch continued beyond its ends: after an interrupt, a limit, or within wider bounds.
+
+    Parameters
+    ----------
+    bounds : (low, high) for a branch in one parameter, or a mapping of free parameters to bounds
+        Default the branch's own.
+    ends : which of "first" and "last" to go on from.
+
+    Raises
+    ------
+    MjcontError
+        If the branch is closed or was loaded without its problem.
+    """
+    if branch.problem is None:
+        raise MjcontError("the branch was loaded without its problem: mc.load(path, problem=...)")
+    if branch.status == "closed":
+        raise MjcontError("the branch is closed: it has no ends to extend")
+    for end in ends:
+        if end not in _ENDS:
+            raise ParameterError(f"ends must be among first, last; got '{end}'")
+    settings = make_settings({**_own_options(branch), **options})
+    free = _free(branch, bounds)
+    result = branch
+    for end in ends:
+        segment = _segment(result, end, free, settings, progress)
+        if segment is not None:
+            result = _join(result, segment, end)
+    result = replace(result, free={p.name: (p.low, p.high) for p in free})
+    points = _relabelled(result, [(p, p.index) for p in result.special_points])
+    object.__setattr__(result, "special_points", tuple(points))
+    return result
+
+
+def _own_options(branch: Branch) -> dict[str, Any]:
+    limits = ("max_points", "max_arclength", "max_seconds")
+    return {k: v for k, v in branch.settings.items() if k not in limits}
+
+
+def _free(branch: Branch, bounds: Any) -> list[Free]:
+    if bounds is not None and not isinstance(bounds, Mapping):
+        if len(branch.free) > 1:
+            raise ParameterError(f"several parameters are free ({', '.join(branch.free)}): give bounds as a mapping")
+        bounds = {next(iter(branch.free)): bounds}
+    given = dict(bounds or {})
+    for name in given:
+        if name not in branch.free:
+            raise ParameterError(f"'{name}' is not free on this branch. Free: {', '.join(branch.free)}.")
+    return [Free(n, *check_bounds(branch.problem, n, given.get(n, own))) for n, own in branch.free.items()]
+
+
+def _segment(
+    branch: Branch, end: str, free: Sequence[Free], settings: Settings, progress: Progress | None
+) -> Branch | None:
+    index, before = (0, 1) if end == "first" else (len(branch) - 1, len(branch) - 2)
+    values = branch.row(index).parameters
+    if any(not p.low < values[p.name] < p.high for p in free):
+        return None
+    system = _system(branch, index, free)
+    neutral: list[Any] = []
+    if branch.kind == "equilibria":
+        walker = Walker(system, settings, equilibrium_detectors(system, settings, neutral, {}))
+    else:
+        kind = branch.kind.removesuffix(" locus")
+        stop = unfolding_stop(system) if kind == "BP" else None
+        walker = Walker(system, settings, locus_detectors(kind, system, settings, True, {}), stop)
+    start = _outward(system, branch, index, before, settings)
+    if isinstance(start, str):
+        return None
+    run = trace(walker, start, reporter(walker.system, progress))
+    return _as_branch(branch, system, run, end, settings, neutral)
+
+
+def _system(branch: Branch, index: int, free: Sequence[Free]) -> System:
+    problem: Any = branch.problem
+    values = problem.values(branch.row(index).parameters)
+    plain = System(problem, values, free)
+    if branch.kind == "equilibria":
+        return plain
+    local = Local(problem, branch.states[index], values, plain.names, True)
+    square = critical_square(spectrum(local.pencil))
+    conditions = conditions_of(branch.kind.removesuffix(" locus"), local, plain, square)
+    return System(problem, values, free, conditions, accurate=True)
+
+
+def _outward(system: System, branch: Branch, index: int, before: int, settings: Settings) -> CurvePoint | str:
+    x, y = branch.states[index].copy(), system.start_y()
+    problem: Any = branch.problem
+    step = problem.difference(branch.states[index], branch.states[before]) / problem.state_scale
+    columns = [(p, branch[p.name]) for p in system.free]
+    move = [p.coordinate(float(c[index])) - p.coordinate(float(c[before])) for p, c in columns]
+    reference: Array = np.concatenate([step, move, np.zeros(system.k - len(system.free))])
+    point = first_point(system, x, y, 1.0, settings)
+    if not isinstance(point, str) and point.tangent @ reference < 0:
+        point = first_point(system, x, y, -1.0, settings)
+    return point
+
+
+def _as_branch(
+    branch: Branch, system: System, run: Trace, end: str, settings: Settings, neutral: Sequence[Any]
+) -> Branch | None:
+    rows = ordered_rows(run)[1:]
+    if not rows:
+        return None
+    outcome = [(run.end.status.value, run.end.message)]
+    rows = rows[::-1] if end == "first" else rows
+    return build_branch(branch.kind, system, rows, outcome, branch.start, 0, settings, neutral)
+
+
+def _join(branch: Branch, segment: Branch, end: str) -> Branch:
+    """Return one branch from a branch and the segment at one of its ends, relabelled."""
+    front, back = (segment, branch) if end == "first" else (branch, segment)
+    width = max(branch.eigenvalues.shape[1], segment.eigenvalues.shape[1])
+    ends = list(branch.ends) if len(branch.ends) == 2 else [*branch.ends, *branch.ends]
+    ends[0 if end == "first" else 1] = segment.ends[0]
+    joined = replace(
+        branch,
+        columns={
+            n: replace(c, values=np.concatenate([front.columns[n].values, back.columns[n].values]))
+            for n, c in branch.columns.items()
+        },
+        states=np.concatenate([front.states, back.states]),
+        eigenvalues=np.concatenate([_padded(front.eigenvalues, width), _padded(back.eigenvalues, width)]),
+        stability=np.concatenate([front.stability, back.stability]),
+        n_unstable=np.concatenate([front.n_unstable, back.n_unstable]),
+        residuals=np.concatenate([front.residuals, back.residuals]),
+        special_points=(),
+        ends=ends,
+        start_index=branch.start_index + (len(segment) if end == "first" else 0),
+        neutral_saddles=[*front.neutral_saddles, *back.neutral_saddles],
+    )
+    points = [(p, p.index) for p in front.special_points]
+    points += [(p, p.index + len(front)) for p in back.special_points]
+    object.__setattr__(joined, "special_points", tuple(_relabelled(joined, points)))
+    return joined
+
+
+def _padded(eigenvalues: Array, width: int) -> Array:
+    fill = np.full((len(eigenvalues), width - eigenvalues.shape[1]), complex(np.nan, np.nan))
+    return np.hstack([eigenvalues, fill])
+
+
+def _relabelled(branch: Branch, points: Sequence[tuple[SpecialPoint, int]]) -> list[SpecialPoint]:
+    counts: dict[str, int] = {}
+    found = []
+    for p, index in points:
+        counts[p.kind] = counts.get(p.kind, 0) + 1
+        found.append(
+            special_from_row(
+                branch.row(index),
+                kind=p.kind,
+                label=f"{p.kind}{counts[p.kind]}",
+                index=index,
+                tolerance=p.tolerance,
+                converged=p.converged,
+                coefficients=p.coefficients,
+                vectors=p.vectors,
+                note=p.note,
+                free=branch.free,
+                curve=p.curve,
+            )
+        )
+    return found
