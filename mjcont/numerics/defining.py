@@ -32,13 +32,22 @@ _ROW_GUARD = 1e-3
 _GENERIC = np.array([0.8, 0.6])
 
 
+def equation_scale(local: Local) -> Array:
+    """Return 1 / (size of each equation) from the rows of J, guarded where they (or all of J) vanish, (n,)."""
+    largest = abs(local.jac).max(axis=1)
+    largest = largest.toarray().ravel() if sparse.issparse(largest) else largest
+    by_parameters = float(np.abs(local.par).max()) if local.par.size else 0.0
+    top = max(float(largest.max()), _ROW_GUARD * by_parameters, 1e-300)
+    return 1.0 / np.maximum(largest, _ROW_GUARD * top)
+
+
 class Fold:
     """J is singular: g = 0 with [J b; c' 0] [v; g] = [0; 1]."""
 
     count, aux, unfolds = 1, (), False
 
     def __init__(self, local: Local) -> None:
-        self.rows = row_scale(local.jac, _ROW_GUARD)
+        self.rows = equation_scale(local)
         v, w = null_vectors(self._scaled(local))
         self.b, self.c = w[:, 0], v[:, 0]
         self._cache: tuple[Local, Array, Array, float] | None = None
@@ -102,7 +111,7 @@ class BranchPoint:
 
     def __init__(self, local: Local, parameter: Free) -> None:
         self.parameter = parameter
-        self.rows = row_scale(local.jac, _ROW_GUARD)
+        self.rows = equation_scale(local)
         if sparse.issparse(local.jac):
             v, w = null_vectors(self._square(local))
             self.c = np.zeros((2, len(v) + 1))
