@@ -12,7 +12,7 @@ Load a mechanism, pick a parameter, and get every equilibrium as that parameter 
 from importlib import metadata as _metadata
 
 from mjcont.branch import Branch, Column, Point, SpecialPoint
-from mjcont.continuation import continue_equilibria, find_equilibrium
+from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
 from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
 from mjcont.errors import (
     BoundsError,
@@ -58,6 +58,7 @@ __all__ = [
     "continue_special",
     "extend",
     "find_equilibrium",
+    "iterate_equilibria",
     "load",
     "switch_branches",
 ]

@@ -104,6 +104,7 @@ def collect(
     origin: str,
     settings: Settings,
     neutral: Sequence[Located] = (),
+    notes: Sequence[str] = (),
 ) -> Branch:
     """Join the directions of a curve into a branch, special points in their places.
 
@@ -125,7 +126,7 @@ def collect(
     problem = system.problem
     if not rows:
         raise StartError(f"{problem.name}: " + "; ".join(m for _, m in ends))  # type: ignore[attr-defined]
-    return build_branch(kind, system, rows, ends, origin, start_index, settings, neutral)
+    return build_branch(kind, system, rows, ends, origin, start_index, settings, neutral, notes)
 
 
 def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
@@ -210,22 +211,28 @@ def _special_points(
         if e is None:
             continue
         counts[e.kind] = counts.get(e.kind, 0) + 1
-        found.append(
-            special_from_row(
-                branch.row(i),
-                kind=e.kind,
-                label=f"{e.kind}{counts[e.kind]}",
-                index=i,
-                tolerance=e.tolerance,
-                converged=e.converged,
-                coefficients={k: v for k, v in e.data.items() if isinstance(v, float | str)},
-                vectors={k: v for k, v in e.data.items() if isinstance(v, np.ndarray)},
-                note=e.note,
-                free=branch.free,
-                curve=branch.kind,
-            )
-        )
+        label = f"{e.kind}{counts[e.kind]}"
+        found.append(special_point(branch.row(i), e, label, i, branch.free, branch.kind))
     return found
+
+
+def special_point(
+    row: Point, e: Located, label: str, index: int, free: Mapping[str, tuple[float, float]], curve: str
+) -> SpecialPoint:
+    """Return the special point of a located one: scalars among its data are coefficients, arrays vectors."""
+    return special_from_row(
+        row,
+        kind=e.kind,
+        label=label,
+        index=index,
+        tolerance=e.tolerance,
+        converged=e.converged,
+        coefficients={k: v for k, v in e.data.items() if isinstance(v, float | str)},
+        vectors={k: v for k, v in e.data.items() if isinstance(v, np.ndarray)},
+        note=e.note,
+        free=free,
+        curve=curve,
+    )
 
 
 def _describe_start(branch: Branch, origin: str) -> str:

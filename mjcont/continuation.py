@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import fields
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 
 from mjcont.branch import Branch, Point, show
-from mjcont.collect import Progress, collect, make_point, run_directions
+from mjcont.collect import Progress, collect, make_point, run_directions, special_point
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError, unknown_name
-from mjcont.numerics.arclength import CurvePoint
+from mjcont.numerics.arclength import CurvePoint, first_point
 from mjcont.numerics.equilibria import (
     BranchPointDetector,
     HopfDetector,
@@ -116,6 +116,7 @@ def continue_equilibria(
     state: Any = None,
     direction: int | None = None,
     zeros: Mapping[str, float] | None = None,
+    limits: Mapping[str, tuple[float, float]] | None = None,
     stop: Callable[[Point], str | None] | None = None,
     progress: Progress | None = None,
     **options: Any,
@@ -137,6 +138,8 @@ def continue_equilibria(
         Both directions from the start, or only that in which the parameter first grows or falls.
     zeros : dict of column to value, optional
         Observables whose passing of a value is located and labelled UZ.
+    limits : mapping of column to (low, high), optional
+        The curve ends at the first point at which an observable leaves its range.
     stop : callable, optional
         `stop(point)` returns a sentence to end the curve there.
     progress : callable, optional
@@ -153,6 +156,73 @@ def continue_equilibria(
     NameLookupError, BoundsError, StartError, ParameterError
         See their messages. Failure of the continuation itself is no exception but the branch's status.
     """
+    prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
+    directions = check_direction(direction)
+    walker = prepared.walker
+    traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
+    return collect(
+        "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.neutral,
+        prepared.notes,
+    )
+
+
+def iterate_equilibria(
+    problem: Any,
+    parameter: str,
+    bounds: tuple[float, float] | None = None,
+    start: Mapping[str, float] | Point | None = None,
+    *,
+    keyframe: str | None = None,
+    state: Any = None,
+    direction: int = 1,
+    zeros: Mapping[str, float] | None = None,
+    limits: Mapping[str, tuple[float, float]] | None = None,
+    **options: Any,
+) -> Iterator[Point]:
+    """Yield the points of a curve of equilibria one by one, special points among them, for callers who drive it.
+
+    Arguments as for `continue_equilibria`, in one direction. Special points are `SpecialPoint`s without a label;
+    the iterator ends where the curve does.
+    """
+    prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, None, options)
+    (sign,) = check_direction(int(direction))
+    walker = prepared.walker
+    system = walker.system
+    first = first_point(system, prepared.x, system.start_y(), sign, walker.settings)
+    if isinstance(first, str):
+        raise StartError(f"the curve could not be entered: {first}")
+    yield make_point(system.problem, first.x, system.values(first.y))
+    for item in walker.walk(first):
+        if isinstance(item, CurvePoint):
+            yield make_point(system.problem, item.x, system.values(item.y))
+        elif isinstance(item, Located):
+            row = make_point(system.problem, item.point.x, system.values(item.point.y))
+            yield special_point(row, item, "", 0, {p.name: (p.low, p.high) for p in system.free}, "equilibria")
+
+
+@dataclass(frozen=True, slots=True)
+class _Prepared:
+    """A walk along a curve of equilibria, ready to start."""
+
+    walker: Walker
+    x: Array
+    origin: str
+    neutral: list[Located]
+    notes: tuple[str, ...]
+
+
+def _prepare(
+    problem: Any,
+    parameter: str,
+    bounds: tuple[float, float] | None,
+    start: Mapping[str, float] | Point | None,
+    keyframe: str | None,
+    state: Any,
+    zeros: Mapping[str, float] | None,
+    limits: Mapping[str, tuple[float, float]] | None,
+    stop: Callable[[Point], str | None] | None,
+    options: Mapping[str, Any],
+) -> _Prepared:
     settings = make_settings(options)
     low, high = check_bounds(problem, parameter, bounds)
     x, values = start_from(problem, start, keyframe, state)
@@ -162,8 +232,10 @@ def continue_equilibria(
             f"the start has {parameter} = {show(values[parameter], unit)}, outside the bounds "
             f"{show(low, unit)} .. {show(high, unit)}: give start={{'{parameter}': ...}} inside them"
         )
-    if direction not in (None, 1, -1):
-        raise ParameterError(f"direction must be None, +1 or -1, got {direction!r}")
+    for name in (*(zeros or {}), *(limits or {})):
+        if name not in problem.parameters:
+            problem.observable(name)
+    problem, notes = hold_rigid_modes(problem, x, values)
     found = find_start(problem, x, values)
     origin = _start_name(start, keyframe, state)
     if found.failure:
@@ -171,19 +243,53 @@ def continue_equilibria(
     system = System(problem, values, [Free(parameter, low, high)])
     neutral: list[Located] = []
     detectors = equilibrium_detectors(system, settings, neutral, zeros or {})
-    walker = Walker(system, settings, detectors, _point_stop(problem, system, stop))
-    directions = (-1.0, 1.0) if direction is None else (float(direction),)
-    traces = run_directions(walker, found.x, system.start_y(), directions, progress)
+    walker = Walker(system, settings, detectors, point_stop(problem, system, stop, limits or {}))
     origin = f"{origin}, by Newton" if found.method == "newton" else f"{origin}, by damped motion to rest"
-    return collect("equilibria", system, traces, directions, f"from {origin}", settings, neutral)
+    return _Prepared(walker, found.x, f"from {origin}", neutral, notes)
 
 
-def _point_stop(
-    problem: Any, system: System, stop: Callable[[Point], str | None] | None
+def hold_rigid_modes(problem: Any, x: Array, values: Values) -> tuple[Any, tuple[str, ...]]:
+    """Return the problem with its rigid-body zero modes held, and a note that names them."""
+    modes = problem.rigid_modes(x, values) if hasattr(problem, "rigid_modes") else ()
+    if not modes:
+        return problem, ()
+    return problem.holding(modes), (f"rigid-body zero modes held: {', '.join(modes)}",)
+
+
+def check_direction(direction: int | None) -> tuple[float, ...]:
+    """Return the directions to walk in: both for None.
+
+    Raises
+    ------
+    ParameterError
+        If it is not None, +1 or -1.
+    """
+    if direction not in (None, 1, -1):
+        raise ParameterError(f"direction must be None, +1 or -1, got {direction!r}")
+    return (-1.0, 1.0) if direction is None else (float(direction),)
+
+
+def point_stop(
+    problem: Any,
+    system: System,
+    stop: Callable[[Point], str | None] | None,
+    limits: Mapping[str, tuple[float, float]],
 ) -> Callable[[CurvePoint], str | None] | None:
-    if stop is None:
+    """Return the function that ends a curve where the user's `stop` or a limit on a column says so."""
+    if stop is None and not limits:
         return None
-    return lambda p: stop(make_point(problem, p.x, system.values(p.y)))
+    names = [n for n in limits if n not in problem.parameters]
+
+    def check(p: CurvePoint) -> str | None:
+        values = system.values(p.y)
+        measured = dict(zip(names, problem.measure(p.x[None], values, names)[0], strict=True)) if names else {}
+        for name, (low, high) in limits.items():
+            value = float(measured.get(name, values.get(name, 0.0)))
+            if not low <= value <= high:
+                return f"{name} = {value:.6g} left its limits {low:g} .. {high:g}"
+        return stop(make_point(problem, p.x, values)) if stop is not None else None
+
+    return check
 
 
 def equilibrium_detectors(

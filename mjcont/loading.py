@@ -87,9 +87,12 @@ def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     """Return the private copy on which residuals are evaluated.
 
     Its integrator is one for which qacc is the forward-dynamics acceleration, sensors are off, and controls are
-    never clamped (bounds outside a ctrlrange are refused before).
+    never clamped (bounds outside a ctrlrange are refused before). A ctrlrange that the model itself does not clamp
+    is no limit.
     """
     private = copy_model(model)
+    if model.opt.disableflags & _DISABLE.mjDSBL_CLAMPCTRL:
+        private.actuator_ctrllimited[:] = 0
     private.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     private.opt.disableflags |= int(_DISABLE.mjDSBL_SENSOR) | int(_DISABLE.mjDSBL_CLAMPCTRL)
     without_sensor_filters(model)

@@ -7,7 +7,7 @@ from typing import Any
 
 from mjcont.branch import Branch, SpecialPoint, show
 from mjcont.collect import Progress, collect, run_directions
-from mjcont.continuation import check_bounds, make_settings, monitor_of
+from mjcont.continuation import check_bounds, check_direction, make_settings, monitor_of
 from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.numerics.equilibria import zero_detector
 from mjcont.numerics.events import Detector
@@ -83,17 +83,11 @@ def continue_special(
     detectors = locus_detectors(kind, system, settings, lyapunov, zeros or {})
     ends = frozenset(end_at if end_at is not None else (("BT",) if kind == "HB" else ()))
     walker = Walker(system, settings, detectors, stop, ends)
-    directions = _directions(direction)
+    directions = check_direction(direction)
     lead = len(free) - 1
     traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
     where = ", ".join(f"{p.name} = {show(point.parameters[p.name], problem.parameter(p.name).unit)}" for p in free)
     return collect(f"{kind} locus", system, traces, directions, f"from {point.label} at {where}", settings)
-
-
-def _directions(direction: int | None) -> tuple[float, ...]:
-    if direction not in (None, 1, -1):
-        raise ParameterError(f"direction must be None, +1 or -1, got {direction!r}")
-    return (-1.0, 1.0) if direction is None else (float(direction),)
 
 
 def free_parameters(

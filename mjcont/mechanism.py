@@ -10,6 +10,7 @@ parameter values: they are arguments of every method.
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,7 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
-from mjcont import loading
+from mjcont import loading, rigid
 from mjcont.errors import BoundsError, NameLookupError, ParameterError, unknown_name
 from mjcont.numerics.differences import CENTRED, PARAMETER, Stencil, jacobian_from_rows, jacobian_steps, stencil
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
@@ -84,6 +85,7 @@ class Mechanism:
         self._sensor_data = mujoco.MjData(self._observed)
         self._batches: dict[int, _Rows] = {}
         self._mass_data = mujoco.MjData(self._model)
+        self._held: tuple[str, ...] = ()
 
     # -- making one ----------------------------------------------------------------------------------------
 
@@ -194,6 +196,8 @@ class Mechanism:
         for k, name in enumerate(wrt):
             par[:, k] = self._parameter_derivative(x, values, name)
         self._writer.write(self.parameters, values)
+        if self._held:
+            jac = jac - self._holding(x, float(np.abs(jac).max()))
         return Linearization(f, jac, par)
 
     def parameter_stencil(self, name: str, value: float) -> tuple[Stencil, float]:
@@ -221,7 +225,12 @@ class Mechanism:
     def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
         """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
         self._writer.write(self.parameters, values)
-        return Pencil(self._mass(x), self._damping(x), -jac)
+        mass, damping = self._mass(x), self._damping(x)
+        if self._held:
+            # critical damping or more: a held mode decays and can never look unstable or marginal
+            size = float(np.abs(jac).max())
+            damping = damping + 2.0 * np.sqrt(float(np.abs(mass).max()) / size) * self._holding(x, size)
+        return Pencil(mass, damping, -jac)
 
     def _mass(self, x: Array) -> Array:
         data = self._mass_data
@@ -244,6 +253,30 @@ class Mechanism:
         velocity = steps[:, self.n :]
         self._forces(self._moved(x, steps[:, : self.n]), velocity)
         return np.hstack([velocity, self._rows(len(steps)).acceleration()])
+
+    # -- rigid-body zero modes -------------------------------------------------------------------------------
+
+    def rigid_modes(self, x: Array, values: Values) -> tuple[str, ...]:
+        """Return the names of the rigid-body motions that no force opposes near a state."""
+        return rigid.zero_modes(self, x, values)
+
+    def rigid_directions(self, x: Array) -> dict[str, Array]:
+        """Return the tangent vectors (nv,) that move the whole model as a rigid body, by name."""
+        self._mass_data.qpos[:] = x
+        mujoco.mj_fwdPosition(self._model, self._mass_data)
+        return rigid.twist_directions(self._model, self._mass_data)
+
+    def holding(self, modes: Sequence[str]) -> Mechanism:
+        """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""
+        held = copy.copy(self)
+        held._held = tuple(modes)
+        return held
+
+    def _holding(self, x: Array, size: float) -> Array:
+        """Return the stiffness that holds the rigid modes, (nv, nv)."""
+        directions = self.rigid_directions(x)
+        basis = np.linalg.qr(np.column_stack([directions[m] for m in self._held if m in directions]))[0]
+        return size * basis @ basis.T
 
     # -- the manifold ----------------------------------------------------------------------------------------
 

@@ -54,6 +54,8 @@ _AFFINE = frozenset(
         "actuator_gainprm",
     }
 )
+_PRODUCTS = ({"jnt_stiffness", "qpos_spring"}, {"ctrl", "actuator_gainprm"})
+_SETTINGS = frozenset({"gravity_axis"})
 _DERIVED_CONSTANTS = frozenset(mujoco.MjModel._setconst_inputs)
 
 
@@ -97,7 +99,17 @@ class Parameter:
     @property
     def affine(self) -> bool:
         """Whether the generalised forces are affine in the parameter."""
-        return bool(self.targets) and all(t.field in _AFFINE for t in self.targets)
+        fields = {t.field for t in self.targets}
+        return bool(fields) and fields <= _AFFINE and not any(pair <= fields for pair in _PRODUCTS)
+
+    @property
+    def entries(self) -> frozenset[tuple[str, int]]:
+        """The entries of model fields on which it acts."""
+        if self.kind == "gravity":
+            return frozenset({("opt.gravity", i) for i in range(3)})
+        found = {(t.field, i) for t in self.targets for i in t.index}
+        scaled = {("body_inertia", 3 * i + k) for field, i in found if field == "body_mass" for k in range(3)}
+        return frozenset(found | scaled)
 
     @property
     def needs_constants(self) -> bool:
@@ -155,7 +167,7 @@ def declarations(model: mujoco.MjModel) -> list[Declaration]:
         if name.startswith(DECLARATION_PREFIX):
             start, size = model.text_adr[i], model.text_size[i]
             text = bytes(model.text_data[start : start + size]).rstrip(b"\0").decode()
-            if " : " in text:
+            if name.removeprefix(DECLARATION_PREFIX) not in _SETTINGS:
                 found.append(parse_declaration(name.removeprefix(DECLARATION_PREFIX), text))
     return found
 
@@ -197,12 +209,13 @@ def _field_entries(model: mujoco.MjModel, kind: str, attr: str, ids: Sequence[in
     field = _RENAMED.get((kind, attr), prefix + attr)
     if kind == "joint" and attr in _PER_DOF:
         field = "dof_" + attr
-    if field == "jnt_stiffness" or hasattr(model, field):
-        array = getattr(model, field)
-    else:
+    array = getattr(model, field, None)
+    if not _is_continuous(array):
         starts = (prefix, "dof_") if kind == "joint" else (prefix,)
-        valid = [f[len(p) :] for p in starts for f in dir(model) if f.startswith(p)]
+        fields = [f for f in dir(model) if f.startswith(starts) and _is_continuous(getattr(model, f))]
+        valid = {f.split("_", 1)[1] for f in fields} | {a for k, a in _RENAMED if k == kind}
         raise unknown_name(f"attribute of a {kind}", attr, valid)
+    assert array is not None
     if field.startswith("dof_"):
         rows = [[d for d in range(model.nv) if model.dof_jntid[d] == j] for j in ids]
         return field, np.array([i for row in rows for i in row], dtype=int).reshape(-1, 1)
@@ -255,17 +268,26 @@ def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
     return [Target(field, tuple(int(i) for i in entries.ravel()), factor, offset, path)]
 
 
+def _is_continuous(field: object) -> bool:
+    return isinstance(field, float) or (isinstance(field, np.ndarray) and field.dtype.kind == "f")
+
+
 def _option_index(model: mujoco.MjModel, attr: str, index: str | None) -> tuple[int, ...]:
-    if not hasattr(model.opt, attr):
-        raise unknown_name("option", attr, [a for a in dir(model.opt) if not a.startswith("_")])
+    if not _is_continuous(getattr(model.opt, attr, None)):
+        names = [a for a in dir(model.opt) if not a.startswith("_")]
+        raise unknown_name("option", attr, [a for a in names if _is_continuous(getattr(model.opt, a))])
     size = np.size(getattr(model.opt, attr))
-    return (int(index),) if index is not None else tuple(range(size))
+    if index is None:
+        return tuple(range(size))
+    if int(index) >= size:
+        raise ParameterError(f"target 'option:{attr}[{index}]': index {index} is outside 0..{size - 1}")
+    return (int(index),)
 
 
 def read_target(model: mujoco.MjModel, target: Target) -> np.ndarray:
     """Return the parameter values that the target's entries imply, (len(index),)."""
     if target.field == "ctrl":
-        return np.zeros(len(target.index))
+        return np.full(len(target.index), -target.offset / target.factor)
     array = np.ravel(_field(model, target.field))
     return (array[list(target.index)] - target.offset) / target.factor
 
@@ -305,8 +327,6 @@ def default_bounds(value: float, unit: str = "") -> tuple[float, float]:
 def _control_range(model: mujoco.MjModel, targets: Sequence[Target]) -> tuple[float, float]:
     """Return the range of values that no limited control would clamp."""
     low, high = -math.inf, math.inf
-    if model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CLAMPCTRL:
-        return low, high
     for target in targets:
         for i in target.index:
             if model.actuator_ctrllimited[i]:
@@ -358,7 +378,11 @@ class Gravity:
 
 
 class FieldWriter:
-    """Writes parameter values into one model (and the control vector), touching only what changed."""
+    """Writes parameter values into one model (and the control vector), touching only what changed.
+
+    What is written depends on the values alone, not on what was written before: a parameter at the model's own value
+    leaves its entries as loaded, and where several act on one entry, the last declared of the others decides.
+    """
 
     def __init__(self, model: mujoco.MjModel, parameters: Mapping[str, Parameter], gravity: Gravity) -> None:
         self.model = model
@@ -366,9 +390,13 @@ class FieldWriter:
         self.ctrl = np.zeros(model.nu)
         self.version = 0
         self._data = mujoco.MjData(model)
-        self._body_mass = model.body_mass.copy()
-        self._body_inertia = model.body_inertia.copy()
+        self._loaded: dict[str, np.ndarray] = {
+            "body_mass": model.body_mass.copy(),
+            "body_inertia": model.body_inertia.copy(),
+        }
         self._written = {name: p.value for name, p in parameters.items()}
+        self._groups: dict[str, tuple[str, ...]] = {}
+        self._grouped = 0
 
     def write(self, parameters: Mapping[str, Parameter], values: Mapping[str, float]) -> None:
         """Make the model have `values`; names that are left out keep what was written last."""
@@ -377,34 +405,74 @@ class FieldWriter:
         if not changed:
             return
         constants = model_changed = False
-        for name in changed:
-            parameter = parameters[name]
-            written[name] = values[name]
-            for target in parameter.targets:
-                self._write_target(target, values[name])
-            constants |= parameter.needs_constants
-            model_changed |= parameter.kind != "control"
-            if parameter.kind == "gravity":
-                self.model.opt.gravity[:] = self.gravity.vector(written[GRAVITY_ANGLE], written[LOAD_FACTOR])
+        written.update({n: values[n] for n in changed})
+        for group in dict.fromkeys(self._group(parameters, name) for name in changed):
+            members = [parameters[n] for n in group]
+            for parameter in members:
+                self._restore(parameter)
+            for parameter in members:
+                if written.get(parameter.name, parameter.value) != parameter.value:
+                    self._apply(parameter)
+            constants |= any(p.needs_constants for p in members)
+            model_changed |= any(p.kind != "control" for p in members)
         if constants:
             mujoco.mj_setConst(self.model, self._data)
         self.version += model_changed
 
-    def _write_target(self, target: Target, value: float) -> None:
-        entry = target.offset + target.factor * value
-        if target.field == "ctrl":
-            self.ctrl[list(target.index)] = entry
-            return
-        array = _field(self.model, target.field)
+    def _group(self, parameters: Mapping[str, Parameter], name: str) -> tuple[str, ...]:
+        """Return the parameters that share entries with `name`, directly or through others, as declared."""
+        if self._grouped != len(parameters):
+            self._groups, self._grouped = {}, len(parameters)
+        if name not in self._groups:
+            entries, group, grown = set(parameters[name].entries), {name}, True
+            while grown:
+                new = {n for n, p in parameters.items() if n not in group and not entries.isdisjoint(p.entries)}
+                entries |= {e for n in new for e in parameters[n].entries}
+                group |= new
+                grown = bool(new)
+            self._groups[name] = tuple(n for n in parameters if n in group)
+        return self._groups[name]
+
+    def _restore(self, parameter: Parameter) -> None:
+        """Give the parameter's entries the values they had in the loaded model."""
+        if parameter.kind == "gravity":
+            self.model.opt.gravity[:] = self.gravity.g0
+        for target in parameter.targets:
+            index = list(target.index)
+            if target.field == "ctrl":
+                self.ctrl[index] = 0.0
+                continue
+            array = _field(self.model, target.field)
+            if target.field not in self._loaded:
+                self._loaded[target.field] = array.copy()
+            self._put(target.field, index, self._loaded[target.field].reshape(-1)[index])
+            if target.field == "body_mass":
+                self.model.body_inertia[index] = self._loaded["body_inertia"][index]
+
+    def _apply(self, parameter: Parameter) -> None:
+        """Write the parameter's value into its entries."""
+        written = self._written
+        if parameter.kind == "gravity":
+            self.model.opt.gravity[:] = self.gravity.vector(written[GRAVITY_ANGLE], written[LOAD_FACTOR])
+        for target in parameter.targets:
+            index = list(target.index)
+            entry = target.offset + target.factor * written[parameter.name]
+            if target.field == "ctrl":
+                self.ctrl[index] = entry
+                continue
+            self._put(target.field, index, entry)
+            if target.field == "body_mass":
+                for body in index:
+                    if self._loaded["body_mass"][body] > 0:
+                        scale = entry / self._loaded["body_mass"][body]
+                        self.model.body_inertia[body] = scale * self._loaded["body_inertia"][body]
+
+    def _put(self, field: str, index: list[int], entry: float | np.ndarray) -> None:
+        array = _field(self.model, field)
         if array.ndim == 0:
-            setattr(self.model.opt, target.field.removeprefix("opt."), entry)
-            return
-        array.reshape(-1)[list(target.index)] = entry
-        if target.field == "body_mass":
-            for body in target.index:
-                if self._body_mass[body] > 0:
-                    scale = entry / self._body_mass[body]
-                    self.model.body_inertia[body] = scale * self._body_inertia[body]
+            setattr(self.model.opt, field.removeprefix("opt."), float(np.squeeze(entry)))
+        else:
+            array.reshape(-1)[index] = entry
 
 
 def with_unit(parameter: Parameter, unit: str) -> Parameter:

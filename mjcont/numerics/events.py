@@ -71,7 +71,10 @@ def bisect(
 ) -> Located | None:
     """Return what `settle` finds in a bracket, halving the bracket while it finds nothing; None if it never does."""
     for _ in range(_MOST_BISECTIONS):
-        result = settle(old, new)
+        try:
+            result = settle(old, new)
+        except np.linalg.LinAlgError:  # a degenerate defining system: not a point of this kind
+            result = None
         if result is not None:
             return result
         length = new.s - old.s

@@ -48,7 +48,7 @@ def _bordered_solve(jac: Any, w: Array, v: Array, rhs: Array) -> Array:
     """Return h with J h = rhs up to the left null direction and v . h = 0."""
     matrix = jac.toarray() if sparse.issparse(jac) else jac
     full = np.block([[matrix, w[:, None]], [v[None], np.zeros((1, 1))]])
-    return np.linalg.solve(full, np.append(rhs, 0.0))[:-1]
+    return np.linalg.lstsq(full, np.append(rhs, 0.0), rcond=None)[0][:-1]
 
 
 class _FirstOrder:
