@@ -28,6 +28,7 @@ from mjcont.extend import extend
 from mjcont.loci import continue_special
 from mjcont.mechanism import Mechanism
 from mjcont.numerics.settings import Settings
+from mjcont.simulate import History, simulate
 from mjcont.storage import load
 from mjcont.vectorfield import VectorField
 
@@ -41,6 +42,7 @@ __all__ = [
     "Branch",
     "Column",
     "Diagram",
+    "History",
     "Mechanism",
     "MjcontError",
     "ModelError",
@@ -60,5 +62,6 @@ __all__ = [
     "find_equilibrium",
     "iterate_equilibria",
     "load",
+    "simulate",
     "switch_branches",
 ]

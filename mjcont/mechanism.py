@@ -72,6 +72,7 @@ class Mechanism:
         self.nq, self.n = model.nq, model.nv
         self.qpos0 = model.qpos0.copy()
         self.evaluations = 0
+        self._loaded = loading.copy_model(model)
         self._observed = model
         self._model = loading.evaluation_copy(model)
         self._flat = loading.coordinates_are_flat(model)
@@ -328,21 +329,33 @@ class Mechanism:
             raise unknown_name("observable", name, self.observables)
         return self.observables[name]
 
-    def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
-        """Return observables at rest for states (m, nq), shape (m, number of names); default all of them."""
+    def measure(
+        self,
+        states: Array,
+        values: Sequence[Values] | Values,
+        names: Sequence[str] | None = None,
+        velocities: Array | None = None,
+    ) -> Array:
+        """Return observables for states (m, nq), at rest unless velocities (m, nv) are given; default all of them."""
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
         out = np.empty((len(states), len(chosen)))
         data = self._sensor_data
         for i, x in enumerate(states):
             self._sensor_writer.write(self.parameters, values if isinstance(values, Mapping) else values[i])
             data.qpos[:] = x
-            data.qvel[:] = 0.0
+            data.qvel[:] = 0.0 if velocities is None else velocities[i]
             data.ctrl[:] = self._sensor_writer.ctrl
             mujoco.mj_forward(self._observed, data)
             out[i] = [o.function(self._observed, data) for o in chosen]
         return out
 
     # -- states ----------------------------------------------------------------------------------------------
+
+    def simulation_model(self) -> mujoco.MjModel:
+        """Return a copy of the model as loaded, for time histories; diverging motion is not reset silently."""
+        model = loading.copy_model(self._loaded)
+        model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET) | int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
+        return model
 
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return a start: the state given, or a keyframe's, or qpos0.

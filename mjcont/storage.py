@@ -21,7 +21,7 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -214,18 +214,31 @@ def special_from_row(row: Point, **details: Any) -> SpecialPoint:
 
 def write_csv(branch: Branch, path: str | Path, *, degrees: bool = True) -> Path:
     """Write the columns of a branch with units in the header; angles in degrees on request."""
-    units: Mapping[str, str] = branch.units
+    extra = list(zip(branch.stability, (int(n) for n in branch.n_unstable), branch.labels, strict=True))
+    return write_columns(branch.columns, path, ("stability", "unstable eigenvalues", "label"), extra, degrees=degrees)
+
+
+def write_columns(
+    columns: Mapping[str, Column],
+    path: str | Path,
+    more: Sequence[str] = (),
+    extra: Sequence[Sequence[Any]] = (),
+    *,
+    degrees: bool = True,
+) -> Path:
+    """Write columns as CSV, with further cells `extra` under the headings `more`."""
+    units = {c.name: c.unit for c in columns.values()}
     turn = [degrees and u == "rad" for u in units.values()]
     header = [f"{n} [{'deg' if t else u}]" if u else n for (n, u), t in zip(units.items(), turn, strict=True)]
-    rows = np.column_stack([c.values for c in branch.columns.values()])
+    rows = np.column_stack([c.values for c in columns.values()])
     rows[:, turn] = np.degrees(rows[:, turn])
 
     def write(temporary: Path) -> None:
         with temporary.open("w", newline="", encoding="utf-8") as f:
             out = csv.writer(f)
-            out.writerow([*header, "stability", "unstable eigenvalues", "label"])
-            for row, s, n, label in zip(rows, branch.stability, branch.n_unstable, branch.labels, strict=True):
-                out.writerow([*(_csv_number(v) for v in row), s, int(n), label])
+            out.writerow([*header, *more])
+            for i, row in enumerate(rows):
+                out.writerow([*(_csv_number(v) for v in row), *(extra[i] if extra else ())])
 
     return write_atomically(path, write)
 
