@@ -7,13 +7,15 @@ Load a mechanism, pick a parameter, and get every equilibrium as that parameter 
     mechanism = mc.Mechanism.from_xml("overcentre")
     branch = mc.continue_equilibria(mechanism, "F", bounds=(-50, 50), start={"F": 50.0})
     print(branch)
+
+Names are loaded when they are first used, so that importing mjcont is quick.
 """
 
+import importlib as _importlib
 from importlib import metadata as _metadata
+from typing import TYPE_CHECKING
+from typing import Any as _Any
 
-from mjcont.branch import Branch, Column, Point, SpecialPoint
-from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
-from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
 from mjcont.errors import (
     BoundsError,
     MjcontError,
@@ -24,13 +26,38 @@ from mjcont.errors import (
     StartError,
     StudyError,
 )
-from mjcont.extend import extend
-from mjcont.loci import continue_special
-from mjcont.mechanism import Mechanism
-from mjcont.numerics.settings import Settings
-from mjcont.simulate import History, simulate
-from mjcont.storage import load
-from mjcont.vectorfield import VectorField
+
+if TYPE_CHECKING:
+    from mjcont.branch import Branch, Column, Point, SpecialPoint
+    from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
+    from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
+    from mjcont.extend import extend
+    from mjcont.loci import continue_special
+    from mjcont.mechanism import Mechanism
+    from mjcont.numerics.settings import Settings
+    from mjcont.plotting import plot
+    from mjcont.simulate import History, simulate
+    from mjcont.stiffness import StiffnessStudy, stiffness_study
+    from mjcont.storage import load
+    from mjcont.study import load_study, run_study
+    from mjcont.vectorfield import VectorField
+
+_HOMES = {
+    "mjcont.branch": ("Branch", "Column", "Point", "SpecialPoint"),
+    "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
+    "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
+    "mjcont.extend": ("extend",),
+    "mjcont.loci": ("continue_special",),
+    "mjcont.mechanism": ("Mechanism",),
+    "mjcont.numerics.settings": ("Settings",),
+    "mjcont.plotting": ("plot",),
+    "mjcont.simulate": ("History", "simulate"),
+    "mjcont.stiffness": ("StiffnessStudy", "stiffness_study"),
+    "mjcont.storage": ("load",),
+    "mjcont.study": ("load_study", "run_study"),
+    "mjcont.vectorfield": ("VectorField",),
+}
+_HOME = {name: module for module, names in _HOMES.items() for name in names}
 
 try:
     __version__ = _metadata.version("mjcont")
@@ -53,6 +80,7 @@ __all__ = [
     "Settings",
     "SpecialPoint",
     "StartError",
+    "StiffnessStudy",
     "StudyError",
     "VectorField",
     "bifurcation_diagram",
@@ -62,6 +90,22 @@ __all__ = [
     "find_equilibrium",
     "iterate_equilibria",
     "load",
+    "load_study",
+    "plot",
+    "run_study",
     "simulate",
+    "stiffness_study",
     "switch_branches",
 ]
+
+
+def __getattr__(name: str) -> _Any:
+    """Load a public name from its module on first use."""
+    if name not in _HOME:
+        raise AttributeError(f"module 'mjcont' has no attribute '{name}'")
+    return getattr(_importlib.import_module(_HOME[name]), name)
+
+
+def __dir__() -> list[str]:
+    """List the public names."""
+    return sorted(__all__)

@@ -144,7 +144,7 @@ class Branch:
     n_unstable : (N,) int array.
     special_points : in order along the branch.
     free : mapping of free parameter to its bounds.
-    fixed : mapping of the other parameters to their values.
+    fixed, fixed_units : mappings of the other parameters to their values and units.
     ends : status and sentence of both ends, in the order of storage.
     start : how the first equilibrium was reached, a sentence.
     settings, provenance : mappings.
@@ -174,6 +174,7 @@ class Branch:
     start_index: int = 0
     neutral_saddles: Sequence[Mapping[str, float]] = ()
     notes: Sequence[str] = ()
+    fixed_units: Mapping[str, str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         """Return the number of points."""
@@ -188,10 +189,12 @@ class Branch:
         raise unknown_name("column", name, [*self.columns, *self.fixed])
 
     def unit(self, name: str) -> str:
-        """Return the unit of a column."""
-        if name not in self.columns:
-            raise unknown_name("column", name, self.columns)
-        return self.columns[name].unit
+        """Return the unit of a column or of a fixed parameter."""
+        if name in self.columns:
+            return self.columns[name].unit
+        if name in self.fixed:
+            return self.fixed_units.get(name, "")
+        raise unknown_name("column", name, [*self.columns, *self.fixed])
 
     @property
     def status(self) -> str:

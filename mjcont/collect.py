@@ -14,12 +14,11 @@ import numpy as np
 from mjcont.branch import Branch, Column, Point, SpecialPoint, show
 from mjcont.errors import StartError
 from mjcont.numerics.arclength import CurvePoint, first_point
-from mjcont.numerics.equilibria import spectrum_of
+from mjcont.numerics.equilibria import local_spectrum, spectrum_of
 from mjcont.numerics.events import Located
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
-from mjcont.numerics.spectrum import spectrum
-from mjcont.numerics.system import System
+from mjcont.numerics.system import Local, System
 from mjcont.numerics.trace import End, Status, Trace, Walker, trace
 from mjcont.storage import special_from_row
 
@@ -39,8 +38,7 @@ _VECTOR_NAMES = ("v", "w")
 
 def make_point(problem: Any, x: Array, values: Values) -> Point:
     """Return the Point of an equilibrium, with observables, eigenvalues and stability."""
-    jac = problem.linearize(x, values, ()).jac
-    s = spectrum(problem.pencil(x, values, jac))
+    s = local_spectrum(Local(problem, x, values, (), False))
     measured = problem.measure(x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
     return Point(dict(values), observables, x.copy(), s.eigenvalues, s.stability, s.n_unstable, problem, units(problem))
@@ -190,6 +188,7 @@ def build_branch(
             {n: v for n, v in system.values(e.point.y).items() if n in system.names} for e in neutral
         ],
         notes=tuple(notes),
+        fixed_units={k: u for k, u in unit_of.items() if k in values[0] and k not in system.names},
     )
     object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows)))
     object.__setattr__(branch, "start", _describe_start(branch, origin))

@@ -53,7 +53,8 @@ def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) ->
     """
     parameter = problem.parameter(name)
     if bounds is None:
-        return parameter.bounds
+        own, hard = parameter.bounds, parameter.hard_bounds
+        return max(own[0], hard[0]), min(own[1], hard[1])
     try:
         low, high = (float(b) for b in bounds)
     except (TypeError, ValueError) as error:
@@ -240,7 +241,7 @@ def _prepare(
     origin = _start_name(start, keyframe, state)
     if found.failure:
         raise StartError(f"no equilibrium found from {origin}: {found.failure}")
-    system = System(problem, values, [Free(parameter, low, high)])
+    system = System(problem, values, [Free(parameter, low, high, problem.parameter(parameter).unit)])
     neutral: list[Located] = []
     detectors = equilibrium_detectors(system, settings, neutral, zeros or {})
     walker = Walker(system, settings, detectors, point_stop(problem, system, stop, limits or {}))

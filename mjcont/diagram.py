@@ -91,7 +91,8 @@ def switch_branches(
 def _system_at(point: SpecialPoint, bounds: tuple[float, float] | None) -> System:
     ((name, own),) = point.free.items()
     low, high = check_bounds(point.problem, name, bounds or own)
-    return System(point.problem, point.problem.values(point.parameters), [Free(name, low, high)])
+    problem: Any = point.problem
+    return System(problem, problem.values(point.parameters), [Free(name, low, high, problem.parameter(name).unit)])
 
 
 def _leave(system: System, x: Array, y: Array, tangent: Array, settings: Settings) -> CurvePoint | str:
@@ -245,7 +246,7 @@ def covers(branch: Branch, point: Point) -> bool:
     z = np.column_stack([steps, target])
     chords = z[:-1] - z[1:]
     lengths = np.linalg.norm(chords, axis=1)
-    along = np.clip(np.einsum("ij,ij->i", z[:-1], chords) / np.maximum(lengths, 1e-300) ** 2, 0.0, 1.0)
+    along = np.clip(np.einsum("ij,ij->i", z[:-1], chords) / np.maximum(lengths**2, 1e-300), 0.0, 1.0)
     aside = np.linalg.norm(z[:-1] - along[:, None] * chords, axis=1)
     for i in np.flatnonzero(aside < 0.05 * lengths + 1e-9):
         chord = problem.difference(branch.states[i + 1], branch.states[i])

@@ -81,7 +81,8 @@ def _free(branch: Branch, bounds: Any) -> list[Free]:
     for name in given:
         if name not in branch.free:
             raise ParameterError(f"'{name}' is not free on this branch. Free: {', '.join(branch.free)}.")
-    return [Free(n, *check_bounds(branch.problem, n, given.get(n, own))) for n, own in branch.free.items()]
+    ranges = {n: check_bounds(branch.problem, n, given.get(n, own)) for n, own in branch.free.items()}
+    return [Free(n, low, high, branch.unit(n)) for n, (low, high) in ranges.items()]
 
 
 def _segment(

@@ -111,7 +111,7 @@ def free_parameters(
                 f"{point.label} has {name} = {show(value, unit)}, outside the bounds "
                 f"{show(low, unit)} .. {show(high, unit)}"
             )
-        free.append(Free(name, low, high))
+        free.append(Free(name, low, high, problem.parameter(name).unit))
     return free
 
 

@@ -54,6 +54,8 @@ class Mechanism:
         Declared in the model, every control, gravity_angle and load_factor.
     observables : dict of str to Observable
         Every sensor and joint position.
+    declared : dict
+        Parameters declared in Python or by path, as results store them.
     keyframes : dict of str to (nq,) array
     state_scale : (nv,) array
         1 rad for rotations, the model's size in metres for translations.
@@ -79,6 +81,7 @@ class Mechanism:
         self.state_scale = loading.state_scale(model)
         self.parameters = _collect_parameters(self._model)
         self.observables = model_observables(model)
+        self.declared: dict[str, Any] = {}
         self.keyframes = loading.keyframes(model)
         gravity = Gravity.of(model)
         self._writer = FieldWriter(self._model, self.parameters, gravity)
@@ -122,10 +125,13 @@ class Mechanism:
         Raises
         ------
         ParameterError
-            If a path matches nothing, or its targets disagree with each other in the loaded model.
+            If the name is in use, a path matches nothing, or its targets disagree with each other in the loaded model.
         """
+        if name in self.parameters:
+            raise ParameterError(f"parameter '{name}' is declared twice")
         parameter = make_parameter(self._model_as_loaded(), Declaration(name, unit, bounds, tuple(paths)))
         self.parameters[name] = parameter
+        self.declared[name] = {"paths": list(paths), "unit": parameter.unit, "bounds": list(parameter.bounds)}
         return parameter
 
     def parameter(self, name: str) -> Parameter:
@@ -195,7 +201,7 @@ class Mechanism:
         jac = jacobian_from_rows(rows[1:], self.state_scale, rule)
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
-            par[:, k] = self._parameter_derivative(x, values, name)
+            par[:, k] = self._parameter_derivative(x, values, name, f)
         self._writer.write(self.parameters, values)
         if self._held:
             jac = jac - self._holding(x, float(np.abs(jac).max()))
@@ -214,12 +220,15 @@ class Mechanism:
             return PARAMETER, PARAMETER.step
         return PARAMETER, PARAMETER.step * size
 
-    def _parameter_derivative(self, x: Array, values: Values, name: str) -> Array:
-        """Return d tau/dp, (nv,)."""
+    def _parameter_derivative(self, x: Array, values: Values, name: str, f: Array) -> Array:
+        """Return d tau/dp, (nv,); `f` is the residual at x, where affine forces need one more point only."""
         rule, h = self.parameter_stencil(name, values[name])
+        if self.parameters[name].affine:
+            self._writer.write(self.parameters, {**values, name: values[name] + h})
+            return (self._forces(x[None])[0] - f) / h
         total = np.zeros(self.n)
         for offset, weight in zip(rule.offsets, rule.weights, strict=True):
-            self._writer.write(self.parameters, {name: values[name] + offset * h})
+            self._writer.write(self.parameters, {**values, name: values[name] + offset * h})
             total += weight * self._forces(x[None])[0]
         return total / h
 

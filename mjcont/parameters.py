@@ -399,13 +399,16 @@ class FieldWriter:
         self._grouped = 0
 
     def write(self, parameters: Mapping[str, Parameter], values: Mapping[str, float]) -> None:
-        """Make the model have `values`; names that are left out keep what was written last."""
+        """Make the model have `values`; names that are left out have the model's own."""
+        if not values.keys() <= parameters.keys():
+            raise unknown_name("parameter", next(n for n in values if n not in parameters), parameters)
         written = self._written
-        changed = [n for n, v in values.items() if written.get(n) != v]
+        new = {n: values.get(n, p.value) for n, p in parameters.items()}
+        changed = [n for n, v in new.items() if written.get(n, parameters[n].value) != v]
         if not changed:
             return
         constants = model_changed = False
-        written.update({n: values[n] for n in changed})
+        written.update(new)
         for group in dict.fromkeys(self._group(parameters, name) for name in changed):
             members = [parameters[n] for n in group]
             for parameter in members:

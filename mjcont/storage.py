@@ -32,6 +32,8 @@ from mjcont.branch import Branch, Column, Point, SpecialPoint
 from mjcont.errors import MjcontError, ResultFileError
 
 FORMAT_VERSION = 1
+# What h5py, json and our own reading raise on files with parts missing or overwritten.
+_DAMAGED = (KeyError, IndexError, ValueError, TypeError, AttributeError, OSError, RuntimeError, MjcontError)
 _CODES = {"stable": 1, "marginal": 0, "unstable": -1}
 
 
@@ -40,7 +42,10 @@ def write_atomically(path: str | Path, write: Callable[[Path], None]) -> Path:
     path = Path(path)
     if not path.parent.is_dir():
         raise MjcontError(f"cannot write {path}: the folder {path.parent} does not exist")
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=path.suffix, dir=path.parent)
+    try:
+        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=path.suffix, dir=path.parent)
+    except OSError as error:
+        raise MjcontError(f"cannot write {path}: {error.strerror}") from error
     os.close(handle)
     try:
         write(Path(name))
@@ -91,6 +96,8 @@ def _write(branch: Branch, path: Path) -> None:
         f["n_unstable"] = branch.n_unstable.astype(np.int32)
         f["residuals"] = branch.residuals
         f.create_group("fixed").attrs.update(dict(branch.fixed))
+        f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
+        f.attrs["declared"] = json.dumps(getattr(branch.problem, "declared", {}))
         group = f.create_group("special_points")
         for p in branch.special_points:
             _write_special(group.create_group(p.label), p)
@@ -126,17 +133,20 @@ def load(path: str | Path, problem: Any = None) -> Branch:
     except OSError as error:
         raise ResultFileError(f"result file '{path}' is not an HDF5 file") from error
     with f:
-        if f.attrs.get("format") != "mjcont":
-            raise ResultFileError(f"result file '{path}' was not written by mjcont")
-        if int(f.attrs["format_version"]) > FORMAT_VERSION:
-            raise ResultFileError(
-                f"result file '{path}' has format version {f.attrs['format_version']}; this mjcont reads up to "
-                f"{FORMAT_VERSION}: upgrade mjcont"
-            )
         try:
+            if f.attrs.get("format") != "mjcont":
+                raise ResultFileError(f"result file '{path}' was not written by mjcont")
+            version = int(f.attrs["format_version"])
+            if version > FORMAT_VERSION:
+                raise ResultFileError(
+                    f"result file '{path}' has format version {version}; this mjcont reads up to "
+                    f"{FORMAT_VERSION}: upgrade mjcont"
+                )
             return _read(f, problem)
-        except KeyError as error:
-            raise ResultFileError(f"result file '{path}' is incomplete: {error.args[0]}") from error
+        except ResultFileError:
+            raise
+        except _DAMAGED as error:
+            raise ResultFileError(f"result file '{path}' is incomplete or damaged: {error}") from error
 
 
 def _read(f: h5py.File, problem: Any) -> Branch:
@@ -144,25 +154,28 @@ def _read(f: h5py.File, problem: Any) -> Branch:
         from mjcont.mechanism import Mechanism
 
         problem = Mechanism.from_xml(f["model"].asstr()[()])
+        for name, given in json.loads(f.attrs["declared"]).items():
+            problem.declare(name, *given["paths"], unit=given["unit"], bounds=given["bounds"])
     columns = {}
     for name in json.loads(f["columns"].attrs["order"]):
         d = f["columns"][name]
-        columns[name] = Column(name, d.attrs["unit"], d.attrs["role"], d[()])
+        columns[name] = Column(name, d.attrs["unit"], d.attrs["role"], _frozen(d[()]))
     words = {v: k for k, v in _CODES.items()}
     labels = list(zip(json.loads(f["states"].attrs["names"]), json.loads(f["states"].attrs["units"]), strict=True))
     branch = Branch(
         kind=str(f.attrs["kind"]),
         name=str(f.attrs["name"]),
         columns=columns,
-        states=f["states"][()],
+        states=_frozen(f["states"][()]),
         state_labels=labels,
-        eigenvalues=f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()],
-        stability=np.array([words[int(c)] for c in f["stability"][()]], dtype="U8"),
-        n_unstable=f["n_unstable"][()].astype(int),
-        residuals=f["residuals"][()],
+        eigenvalues=_frozen(f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]),
+        stability=_frozen(np.array([words[int(c)] for c in f["stability"][()]], dtype="U8")),
+        n_unstable=_frozen(f["n_unstable"][()].astype(int)),
+        residuals=_frozen(f["residuals"][()]),
         special_points=(),
         free={k: tuple(v) for k, v in json.loads(f.attrs["free"]).items()},
         fixed={k: float(v) for k, v in f["fixed"].attrs.items()},
+        fixed_units=json.loads(f.attrs["fixed_units"]),
         ends=[tuple(e) for e in json.loads(f.attrs["ends"])],
         start=str(f.attrs["start"]),
         settings=json.loads(f.attrs["settings"]),
@@ -174,9 +187,17 @@ def _read(f: h5py.File, problem: Any) -> Branch:
         neutral_saddles=json.loads(f.attrs["neutral_saddles"]),
         notes=json.loads(f.attrs["notes"]),
     )
+    rows = {len(branch.states), len(branch.eigenvalues), len(branch.stability), len(branch.n_unstable)}
+    if rows | {len(branch.residuals)} | {len(c.values) for c in columns.values()} != {len(branch.states)}:
+        raise ValueError("its columns differ in length")
     points = [_read_special(f["special_points"][label], label, branch) for label in f["special_points"]]
     object.__setattr__(branch, "special_points", tuple(sorted(points, key=lambda p: p.index)))
     return branch
+
+
+def _frozen(array: np.ndarray) -> np.ndarray:
+    array.flags.writeable = False
+    return array
 
 
 def _read_special(g: h5py.Group, label: str, branch: Branch) -> SpecialPoint:

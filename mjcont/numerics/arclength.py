@@ -63,7 +63,7 @@ def point_from(c: Corrected, reference: Array, s: float) -> CurvePoint:
     rhs[-1] = 1.0
     assert c.factored is not None
     tangent = c.factored.solve(rhs)
-    tangent /= np.linalg.norm(tangent)
+    tangent *= math.copysign(1.0, tangent @ reference) / np.linalg.norm(tangent)
     factored = Factored(with_row(c.jac, tangent))
     cosine = float(np.clip(tangent @ reference, -1.0, 1.0))
     return CurvePoint(
@@ -79,15 +79,16 @@ def first_point(
     Returns a sentence where the corrector fails.
     """
     tangent = tangent_at(system, system.local(x, y), y)
-    c = correct(system, x, y, tangent, None, settings)
+    lead += system.n
+    row = tangent
+    if abs(tangent[lead]) > 1e-3:  # keeps the parameter at the start's value exactly
+        row = np.zeros_like(tangent)
+        row[lead] = 1.0
+    c = correct(system, x, y, row, None, settings)
     if c.failure:
         return c.failure
-    lead += system.n
     component = tangent[lead] if abs(tangent[lead]) > 1e-8 else tangent[np.argmax(np.abs(tangent))]
-    if component * direction < 0:
-        tangent = -tangent
-        c = correct(system, c.x, c.y, tangent, None, settings)
-    return point_from(c, tangent, 0.0)
+    return point_from(c, tangent if component * direction > 0 else -tangent, 0.0)
 
 
 def tangent_at(system: System, local: Local, y: Array) -> Array:

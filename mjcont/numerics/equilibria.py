@@ -26,7 +26,7 @@ from mjcont.numerics.newton import Corrected, solve
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.spectrum import Spectrum, spectrum
-from mjcont.numerics.system import System
+from mjcont.numerics.system import Local, System
 
 _NOT_TRANSVERSE = 1e-6
 _UNFOLDED = 1e-7
@@ -37,8 +37,19 @@ _CLOSE = 1e-6
 def spectrum_of(point: CurvePoint) -> Spectrum:
     """Return the spectrum at a point, computed once."""
     if "spectrum" not in point.extra:
-        point.extra["spectrum"] = spectrum(point.local.pencil)
+        point.extra["spectrum"] = local_spectrum(point.local)
     return point.extra["spectrum"]
+
+
+def local_spectrum(local: Local) -> Spectrum:
+    """Return the spectrum at an evaluation, its noise measured from samples of f that differ by rounding."""
+    return spectrum(local.pencil, lambda: rounding_samples(local))
+
+
+def rounding_samples(local: Local) -> Array:
+    """Return f at states a few units in the last place apart, (8, n)."""
+    signs = np.cos(np.arange(8 * local.problem.n, dtype=float)).reshape(8, -1)
+    return local.problem.residuals(local.x, local.values, 2e-15 * signs * local.problem.state_scale)
 
 
 def square_system(system: System, conditions: Sequence[Any], at: Corrected) -> tuple[System, Array]:
@@ -141,7 +152,7 @@ class HopfDetector:
         near = approximate(self.system, old, new, self._fraction(old, new), self.settings)
         if near.failure:
             return None
-        square = critical_square(spectrum(near.local.pencil))
+        square = critical_square(local_spectrum(near.local))
         if square is None:
             return None
         condition = Hopf(near.local, square)

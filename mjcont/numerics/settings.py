@@ -29,8 +29,8 @@ class Settings:
 
     ds: float = 0.01
     ds_min: float = 1e-9
-    ds_max: float = 0.1
-    angle: float = math.radians(6.0)
+    ds_max: float = 0.05
+    angle: float = math.radians(5.0)
     angle_max: float = math.radians(15.0)
     tol: float = 1e-8
     max_corrections: int = 12

@@ -8,6 +8,7 @@ difference derivatives.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +16,7 @@ import numpy as np
 from scipy import linalg, sparse
 from scipy.sparse.linalg import ArpackNoConvergence, eigs, splu
 
+from mjcont.numerics.differences import SECOND_ORDER
 from mjcont.numerics.problem import Array, Pencil
 
 STABLE, UNSTABLE, MARGINAL = "stable", "unstable", "marginal"
@@ -56,8 +58,15 @@ class Spectrum:
         return pairs + int(np.count_nonzero(np.triu(sums > 0, 1)))
 
 
-def spectrum(pencil: Pencil) -> Spectrum:
-    """Return eigenvalues and stability of the pencil."""
+def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spectrum:
+    """Return eigenvalues and stability of the pencil.
+
+    Parameters
+    ----------
+    scatter : callable, optional
+        Returns samples of f that differ by rounding only, (m, n). With them the noise of an eigenvalue near the axis
+        is measured instead of bounded: stiff bushes make f noisy, but hardly along the mechanism's own mode.
+    """
     if sparse.issparse(pencil.stiffness):
         return _sparse_spectrum(pencil.stiffness)
     if pencil.mass is None or pencil.damping is None:
@@ -68,9 +77,37 @@ def spectrum(pencil: Pencil) -> Spectrum:
     if _symmetric(k) and _symmetric(c) and np.linalg.eigvalsh(0.5 * (c + c.T))[0] >= -_ROUNDING * np.abs(c).max():
         return _conservative(pencil.mass, c, 0.5 * (k + k.T))
     ev = quadratic_eigenvalues(pencil.mass, c, k)
-    root = np.sqrt(np.abs(np.diag(pencil.mass)).min())
-    noise = _DIFFERENCE_NOISE * np.abs(k).max() / (root**2 * np.maximum(np.abs(ev), np.sqrt(np.median(np.abs(ev)))))
-    return _classify(ev, np.minimum(noise, 1e-2 * np.abs(ev) + 1e-12), conservative=False)
+    noise = _noise_bound(pencil.mass, k, ev)
+    close = np.flatnonzero((np.abs(ev.real) <= noise) & (ev.imag >= 0))
+    if scatter is not None and len(close):
+        samples = scatter()
+        for i in close:
+            measured = _measured_noise(pencil.mass, c, k, ev[i], samples)
+            noise[np.abs(ev - ev[i]) == 0] = noise[np.abs(ev - ev[i].conj()) == 0] = min(measured, noise[i])
+    return _classify(ev, noise, conservative=False)
+
+
+def _noise_bound(mass: Array, stiffness: Array, ev: Array) -> Array:
+    """Return a bound on the error of each eigenvalue from the noise of a difference K, ignoring its structure."""
+    lightest = float(np.abs(np.diag(mass)).min())
+    rate = np.maximum(np.abs(ev), np.sqrt(np.median(np.abs(ev))))
+    noise = _DIFFERENCE_NOISE * np.abs(stiffness).max() / (lightest * rate)
+    return np.minimum(noise, 1e-2 * np.abs(ev) + 1e-12)
+
+
+def _measured_noise(mass: Array, damping: Array, stiffness: Array, s: complex, samples: Array) -> float:
+    """Return the error of an eigenvalue from the scatter of p . f, p and q its left and right vectors.
+
+    A column of K is a difference over the step of the stencil, so its error is the scatter over that step; the
+    eigenvalue moves by p . dK q / p . P'(s) q (first-order perturbation).
+    """
+    u, _, vh = np.linalg.svd(s**2 * mass + s * damping + stiffness)
+    p, q = u[:, -1], vh[-1].conj()
+    slope = abs(np.vdot(p, (2.0 * s * mass + damping) @ q))
+    spread = float(np.std(samples @ p.conj()))
+    largest = np.sqrt(np.abs(stiffness).max() / np.abs(np.diag(mass)).min())
+    solver = 1e-15 * largest
+    return 4.0 * spread * float(np.linalg.norm(q)) / (SECOND_ORDER.step * max(slope, 1e-300)) + solver
 
 
 def _symmetric(matrix: Array) -> bool:
@@ -80,9 +117,8 @@ def _symmetric(matrix: Array) -> bool:
 def quadratic_eigenvalues(mass: Array, damping: Array, stiffness: Array) -> Array:
     """Return the 2 n eigenvalues of s^2 M + s C + K, scaled by the frequency of the largest stiffness."""
     n = len(mass)
-    factor = linalg.cholesky(mass, lower=True)
-    k = linalg.solve_triangular(factor, linalg.solve_triangular(factor, stiffness.T, lower=True).T, lower=True)
-    c = linalg.solve_triangular(factor, linalg.solve_triangular(factor, damping.T, lower=True).T, lower=True)
+    both = np.linalg.solve(mass, np.hstack([stiffness, damping]))
+    k, c = both[:, :n], both[:, n:]
     rate = np.sqrt(max(np.abs(k).max(), 1e-300))
     block = np.zeros((2 * n, 2 * n))
     block[:n, n:] = np.eye(n)

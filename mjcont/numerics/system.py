@@ -30,6 +30,11 @@ class Free:
     name: str
     low: float
     high: float
+    unit: str = ""
+
+    def show(self, value: float) -> str:
+        """Return a value as a sentence shows it, radians in degrees."""
+        return f"{math.degrees(value):.6g} deg" if self.unit == "rad" else f"{value:.6g} {self.unit}".rstrip()
 
     @property
     def log(self) -> bool:

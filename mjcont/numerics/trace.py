@@ -17,6 +17,8 @@ from mjcont.numerics.system import System
 
 # below this step a pair of folds is not looked for between two points
 _SMALL_FOLDS = 1e-5
+# a curve that ends on the bound where it is already adds no second point there
+_SAME_POINT = 1e-9
 
 
 class Status(Enum):
@@ -100,7 +102,8 @@ class Walker:
             if ending is None and self._passes(start, point, new):
                 yield End(Status.CLOSED, "the curve closes on itself")
                 return
-            yield new
+            if ending is None or new.s - point.s > _SAME_POINT:
+                yield new
             if ending is not None:
                 yield ending
                 return
@@ -160,7 +163,7 @@ class Walker:
             value = p.value(float(new.y[i]))
             for bound, beyond in ((p.low, value < p.low), (p.high, value > p.high)):
                 if beyond:
-                    return i, p.coordinate(bound), f"{p.name} reached its bound {bound:g}"
+                    return i, p.coordinate(bound), f"{p.name} reached its bound {p.show(bound)}"
         return None
 
     def _between(self, old: CurvePoint, new: CurvePoint) -> list[Located]:
@@ -183,7 +186,8 @@ class Walker:
         return 0.0 < along <= length and aside <= 0.1 * length
 
     def _where(self, point: CurvePoint) -> str:
-        return ", ".join(f"{p.name} = {p.value(float(u)):.6g}" for p, u in zip(self.system.free, point.y, strict=False))
+        free = zip(self.system.free, point.y, strict=False)
+        return ", ".join(f"{p.name} = {p.show(p.value(float(u)))}" for p, u in free)
 
 
 def _distinct(located: list[Located]) -> list[Located]:
@@ -208,5 +212,5 @@ def trace(walker: Walker, start: CurvePoint, progress: Callable[[CurvePoint | Lo
             if progress is not None:
                 progress(item)
     except KeyboardInterrupt:
-        result.end = End(Status.INTERRUPTED, f"interrupted by the user after {len(result.points)} points")
+        result.end = End(Status.INTERRUPTED, f"stopped by the user after {len(result.points)} points")
     return result
