@@ -1,0 +1,8 @@
+"""`python -m mjcont`: the command line."""
+
+import sys
+
+from mjcont.cli import main
+
+if __name__ == "__main__":
+    sys.exit(main())
