@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -107,6 +107,24 @@ class BranchPointDetector:
         return [result]
 
 
+def _balanced(system: System, fold: Fold, c: Corrected) -> Corrected:
+    """Return a fold with the parameter at which w . f = 0 for its state as it stands.
+
+    Rounding of the state loads stiff bushes with about 1e-16 k; the left null vector, a motion of the mechanism that
+    leaves the pins closed, does not feel those forces.
+    """
+    if c.failure:
+        return c
+    _, w = fold.physical(c.local)
+    slope = float(w @ c.local.par[:, 0]) * system.free[0].slope(float(c.y[0]))
+    shift = -float(w @ c.local.f) / slope if slope else 0.0
+    if not abs(shift) < 1e-6:
+        return c
+    y = c.y.copy()
+    y[0] += shift
+    return replace(c, y=y)
+
+
 def fold_detector(system: System, settings: Settings) -> ZeroDetector:
     """Return the detector of folds: the tangent's parameter component changes sign."""
     state: dict[str, Fold] = {}
@@ -117,7 +135,7 @@ def fold_detector(system: System, settings: Settings) -> ZeroDetector:
     def solve_fold(near: Corrected) -> Corrected:
         state["fold"] = Fold(near.local)
         full, y = square_system(system, [state["fold"]], near)
-        return solve(full, near.x, y)
+        return _balanced(full, state["fold"], solve(full, near.x, y))
 
     def finish(c: Corrected) -> tuple[dict[str, Any], str] | None:
         v, w = state["fold"].physical(c.local)
