@@ -1,0 +1,33 @@
+"""Draw the pictures of the README and the documentation: python docs/make_images.py."""
+
+from pathlib import Path
+
+import mjcont as mc
+from mjcont.plotting import new_figure, place_labels, save_figure, set_panel_title
+
+OUT = Path(__file__).parent / "images"
+
+
+def overcentre() -> None:
+    """Draw the overcentre mechanism and a landing gear's crucial fold with its locus."""
+    mechanism = mc.Mechanism.from_xml("overcentre")
+    branch = mc.continue_equilibria(mechanism, "F", bounds=(-50, 50), start={"F": 50.0}, ds_max=0.02)
+    gear = mc.Mechanism.from_xml("nose_gear")
+    slices = mc.continue_equilibria(
+        gear, "F_ret", bounds=(3e5, 8e5), start={"F_ret": 4e5}, keyframe="uplock_above", ds_max=0.02
+    )
+    locus = mc.continue_special(slices.point("LP1"), "F_ul", bounds=(-1000, 0), ds_max=0.02)
+    figure, axes = new_figure(1, 3, (11.0, 3.6))
+    mc.plot(branch, x="F", y="theta_1", ax=axes[0])
+    mc.plot(slices, x="F_ret", y="theta_ov", ax=axes[1])
+    mc.plot(locus, x="F_ul", y="F_ret", ax=axes[2])
+    titles = ("overcentre mechanism", "nose landing gear", "locus of its fold LP1, with the cusp")
+    for ax, title in zip(axes, titles, strict=True):
+        set_panel_title(ax, title)
+        place_labels(ax)
+    save_figure(figure, OUT / "overview.png", dpi=110)
+
+
+if __name__ == "__main__":
+    OUT.mkdir(exist_ok=True)
+    overcentre()
