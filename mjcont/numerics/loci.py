@@ -7,16 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.numerics import normalform
+from mjcont.numerics import codim2, normalform
 from mjcont.numerics.arclength import CurvePoint
 from mjcont.numerics.bordered import Factored
 from mjcont.numerics.defining import DoubleZero, Fold, FoldCoefficient, Hopf, Transversality
-from mjcont.numerics.equilibria import critical_pairs, critical_square, spectrum_of, square_system
+from mjcont.numerics.equilibria import critical_pairs, critical_square, local_spectrum, spectrum_of, square_system
 from mjcont.numerics.events import Detector, ZeroDetector
 from mjcont.numerics.newton import Corrected, solve
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
-from mjcont.numerics.spectrum import Spectrum, spectrum
+from mjcont.numerics.spectrum import Spectrum
 from mjcont.numerics.system import Local, System
 
 Finish = Callable[[Corrected], tuple[dict[str, Any], str] | None]
@@ -40,7 +40,7 @@ class FirstLyapunov:
 
 def lyapunov_at(local: Local) -> float:
     """Return l1 at or near a Hopf point, NaN where no pair of eigenvalues is imaginary."""
-    square = critical_square(spectrum(local.pencil))
+    square = critical_square(local_spectrum(local))
     if square is None or square <= 0:
         return float("nan")
     return normalform.first_lyapunov(local.problem, local.x, local.values, float(np.sqrt(square)))
@@ -112,7 +112,7 @@ def _pair_detector(kind: str, system: System, settings: Settings, count: Callabl
         return test(old) != test(new)
 
     def solve_with(near: Corrected) -> Corrected:
-        square = _next_square(spectrum(near.local.pencil), skip=kind == "HH")
+        square = _next_square(local_spectrum(near.local), skip=kind == "HH")
         if square is None:
             return Corrected(near.x, near.y, near.local, None, 0, 0.0, np.inf, np.inf, "no pair of eigenvalues")
         state["pair"] = Hopf(near.local, square)
@@ -121,7 +121,14 @@ def _pair_detector(kind: str, system: System, settings: Settings, count: Callabl
 
     def finish(c: Corrected) -> tuple[dict[str, Any], str] | None:
         square = state["pair"].square(c.y[-1:])
-        return ({"omega": float(np.sqrt(square))}, "") if square > 0 else None
+        if square <= 0:
+            return None
+        omega, local = float(np.sqrt(square)), c.local
+        if kind == "ZH":
+            return codim2.zero_hopf_coefficients(local.problem, c.x, local.values, omega), ""
+        own = system.conditions[0].square(c.y[system.k - 1 : system.k])  # type: ignore[attr-defined]
+        first = float(np.sqrt(own))
+        return codim2.double_hopf_coefficients(local.problem, c.x, local.values, first, omega), ""
 
     return ZeroDetector(kind, system, test, solve_with, finish, settings, "", changed)
 
@@ -165,7 +172,9 @@ def hopf_locus_detectors(system: System, hopf: Hopf, settings: Settings, *, lyap
 
     def finish_fold(c: Corrected) -> tuple[dict[str, Any], str] | None:
         square = hopf.square(c.y[last : last + 1])
-        return ({"omega": float(np.sqrt(square))}, "") if square > 1e-6 * hopf.rate**2 else None
+        if square <= 1e-6 * hopf.rate**2:
+            return None
+        return codim2.zero_hopf_coefficients(c.local.problem, c.x, c.local.values, float(np.sqrt(square))), ""
 
     found: list[Detector] = [
         ZeroDetector("BT", system, kappa, solve_double_zero, finish_double_zero, settings),

@@ -51,7 +51,7 @@ def _bordered_solve(jac: Any, w: Array, v: Array, rhs: Array) -> Array:
     return np.linalg.lstsq(full, np.append(rhs, 0.0), rcond=None)[0][:-1]
 
 
-class _FirstOrder:
+class FirstOrder:
     """The first-order form around an equilibrium, with multilinear forms by sixth-order differences."""
 
     def __init__(self, problem: Problem, x: Array, values: Values) -> None:
@@ -60,6 +60,7 @@ class _FirstOrder:
         self.scale = np.concatenate([scale, scale]) if problem.second_order else scale
 
     def jacobian(self) -> Array:
+        """Return the Jacobian of the first-order form."""
         rows = self._f(jacobian_steps(self.scale, FOURTH_ORDER))
         return jacobian_from_rows(rows, self.scale, FOURTH_ORDER)
 
@@ -78,6 +79,20 @@ class _FirstOrder:
             return real + 1j * (self.second(ur, vi) + self.second(ui, vr))
         return 0.25 * (self._along(u + v, 2) - self._along(u - v, 2))
 
+    def trilinear(self, u: Array, v: Array, w: Array) -> Array:
+        """Return C(u, v, w) for complex vectors."""
+        total = np.zeros(len(u), dtype=complex)
+        for i, a in enumerate((u.real, u.imag)):
+            for j, b in enumerate((v.real, v.imag)):
+                for k, c in enumerate((w.real, w.imag)):
+                    if a.any() and b.any() and c.any():
+                        total += 1j ** (i + j + k) * self._polarized(a, b, c)
+        return total
+
+    def _polarized(self, u: Array, v: Array, w: Array) -> Array:
+        plus = self._along(u + v + w, 3) - self._along(u + v - w, 3)
+        return (plus - self._along(u - v + w, 3) + self._along(u - v - w, 3)) / 24.0
+
     def third(self, u: Array, v: Array) -> Array:
         """Return C(u, u, v) for real vectors."""
         return (self._along(u + v, 3) - self._along(u - v, 3) - 2.0 * self._along(v, 3)) / 6.0
@@ -88,9 +103,9 @@ def first_lyapunov(problem: Problem, x: Array, values: Values, omega: float) -> 
 
     |q| = 1 in the unknowns of a first-order problem, in the positions of a second-order one.
     """
-    form = _FirstOrder(problem, x, values)
+    form = FirstOrder(problem, x, values)
     jac = form.jacobian()
-    q, p = _eigenvectors(jac, omega)
+    q, p = eigenvectors(jac, omega)
     if problem.second_order:
         q = q / np.linalg.norm(q[: problem.n])
         p = p / np.vdot(q, p).conj()
@@ -105,7 +120,7 @@ def first_lyapunov(problem: Problem, x: Array, values: Values, omega: float) -> 
     return float(np.real(np.vdot(p, total)) / (2.0 * omega))
 
 
-def _eigenvectors(jac: Array, omega: float) -> tuple[Array, Array]:
+def eigenvectors(jac: Array, omega: float) -> tuple[Array, Array]:
     """Return q and p with J q = i omega q, J' p = -i omega p, |q| = 1 and <p, q> = 1."""
     u, _, vh = np.linalg.svd(jac - 1j * omega * np.eye(len(jac)))
     q, p = vh[-1].conj(), u[:, -1]
@@ -118,7 +133,7 @@ def double_zero_coefficients(problem: Problem, x: Array, values: Values) -> dict
     a = p1 . B(q0, q0) / 2, b = p0 . B(q0, q0) + p1 . B(q0, q1) with the generalised eigenvectors J q0 = 0,
     J q1 = q0, J' p1 = 0, J' p0 = p1, <p0, q0> = <p1, q1> = 1, <p0, q1> = 0 (Kuznetsov, section 8.4).
     """
-    form = _FirstOrder(problem, x, values)
+    form = FirstOrder(problem, x, values)
     jac = form.jacobian()
     u, _, vt = np.linalg.svd(jac)
     q0, p1 = vt[-1], u[:, -1]
