@@ -17,25 +17,17 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from mujoco.batch import Batch
 
 from mjcont import loading, rigid
-from mjcont.errors import BoundsError, NameLookupError, ParameterError, unknown_name
+from mjcont.errors import BoundsError, ParameterError, unknown_name
 from mjcont.numerics.differences import CENTRED, PARAMETER, Stencil, jacobian_from_rows, jacobian_steps, stencil
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
-from mjcont.observables import Observable, model_observables
-from mjcont.parameters import (
-    Declaration,
-    FieldWriter,
-    Gravity,
-    Parameter,
-    control_parameter,
-    controls,
-    declarations,
-    gravity_parameters,
-    is_bush,
-    make_parameter,
-)
+from mjcont.observables import model_observables
+from mjcont.parameters import Declaration, collect_parameters, make_parameter
+from mjcont.paths import is_bush
+from mjcont.quantities import Observable, Parameter
+from mjcont.rows import Rows
+from mjcont.writer import FieldWriter, Gravity
 
 _MAX_BATCHES = 32
 
@@ -79,7 +71,7 @@ class Mechanism:
         self._model = loading.evaluation_copy(model)
         self._flat = loading.coordinates_are_flat(model)
         self.state_scale = loading.state_scale(model)
-        self.parameters = _collect_parameters(self._model)
+        self.parameters = collect_parameters(self._model)
         self.observables = model_observables(model)
         self.declared: dict[str, Any] = {}
         self.keyframes = loading.keyframes(model)
@@ -87,7 +79,7 @@ class Mechanism:
         self._writer = FieldWriter(self._model, self.parameters, gravity)
         self._sensor_writer = FieldWriter(self._observed, self.parameters, gravity)
         self._sensor_data = mujoco.MjData(self._observed)
-        self._batches: dict[int, _Rows] = {}
+        self._batches: dict[int, Rows] = {}
         self._mass_data = mujoco.MjData(self._model)
         self._held: tuple[str, ...] = ()
 
@@ -313,12 +305,12 @@ class Mechanism:
 
     # -- evaluation ------------------------------------------------------------------------------------------
 
-    def _rows(self, count: int) -> _Rows:
+    def _rows(self, count: int) -> Rows:
         rows = self._batches.get(count)
         if rows is None:
             if len(self._batches) >= _MAX_BATCHES:
                 self._batches.clear()
-            rows = self._batches[count] = _Rows(self._model, count)
+            rows = self._batches[count] = Rows(self._model, count)
         return rows
 
     def _forces(self, qpos: Array, qvel: Array | None = None) -> Array:
@@ -405,51 +397,3 @@ class Mechanism:
     def __repr__(self) -> str:
         """Return a one-line description."""
         return f"<Mechanism '{self.name}': {self.n} DOF, {len(self.parameters)} parameters>"
-
-
-class _Rows:
-    """A batch of a fixed number of rows, evaluated on one thread (waking a second costs more than it gives)."""
-
-    def __init__(self, model: mujoco.MjModel, count: int) -> None:
-        self._model = model
-        self._batch = Batch(model, count, nthread=1)
-        self._version = -1
-        self._qpos = self._batch.bind("qpos")
-        self._qvel = self._batch.bind("qvel")
-        self._ctrl = self._batch.bind("ctrl")
-        self._forces = self._batch.bind("qfrc_smooth")
-        self._acceleration = self._batch.bind("qacc")
-
-    def forward(self, qpos: Array, qvel: Array | None, writer: FieldWriter) -> Array:
-        if self._version != writer.version:
-            self._batch.set_models(self._model)
-            self._version = writer.version
-        self._qpos[:] = qpos
-        self._qvel[:] = 0.0 if qvel is None else qvel
-        self._ctrl[:] = writer.ctrl
-        self._batch.forward()
-        return self._forces
-
-    def acceleration(self) -> Array:
-        return self._acceleration
-
-
-def _collect_parameters(model: mujoco.MjModel) -> dict[str, Parameter]:
-    """Return declared parameters first, then controls, then gravity."""
-    found: dict[str, Parameter] = {}
-    reserved = {p.name for p in gravity_parameters()}
-    for declaration in declarations(model):
-        if any(path.startswith("sensor:") for path in declaration.paths):
-            continue
-        if declaration.name in found or declaration.name in reserved:
-            raise ParameterError(f"parameter '{declaration.name}' is declared twice")
-        try:
-            found[declaration.name] = make_parameter(model, declaration)
-        except NameLookupError as error:
-            raise ParameterError(f"parameter '{declaration.name}': {error}") from error
-    for name, index in controls(model).items():
-        if name not in found:
-            found[name] = control_parameter(model, name, index)
-    for parameter in gravity_parameters():
-        found[parameter.name] = parameter
-    return found

@@ -6,7 +6,6 @@ Sensor cut-off, noise and delay are ignored: the raw value is read from a copy o
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -14,6 +13,7 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.parameters import declarations
+from mjcont.quantities import Observable
 
 _SENSOR = mujoco.mjtSensor
 _UNITS = {
@@ -27,15 +27,6 @@ _UNITS = {
     _SENSOR.mjSENS_E_POTENTIAL: "J",
     _SENSOR.mjSENS_E_KINETIC: "J",
 }
-
-
-@dataclass(frozen=True, slots=True)
-class Observable:
-    """A named scalar: `function(model, data)` after `mj_forward` at rest, in `unit`."""
-
-    name: str
-    unit: str
-    function: Callable[[Any, Any], float]
 
 
 def _reader(address: int) -> Callable[[Any, Any], float]:

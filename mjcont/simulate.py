@@ -16,7 +16,7 @@ from mjcont.continuation import start_from
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.mechanism import Mechanism
 from mjcont.numerics.problem import Array
-from mjcont.parameters import FieldWriter, Gravity
+from mjcont.writer import FieldWriter, Gravity
 
 Input = float | Callable[[float], float] | tuple[Any, Any]
 

@@ -17,8 +17,7 @@ from mjcont.numerics.differences import (
     jacobian_steps,
 )
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
-from mjcont.observables import Observable
-from mjcont.parameters import Parameter, default_bounds
+from mjcont.quantities import Observable, Parameter, default_bounds
 
 
 class VectorField:

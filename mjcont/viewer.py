@@ -11,7 +11,7 @@ import mujoco
 from mjcont.errors import MjcontError
 from mjcont.mechanism import Mechanism
 from mjcont.numerics.problem import Array
-from mjcont.parameters import FieldWriter, Gravity
+from mjcont.writer import FieldWriter, Gravity
 
 
 def view(mechanism: Mechanism, state: Array, values: Mapping[str, float]) -> None:

@@ -1,0 +1,156 @@
+"""Paths to the fields of a MuJoCo model, as parameters name them.
+
+Their grammar is object:pattern.attribute[index]*factor+offset,
+
+with `object` one of joint, body, site, geom, tendon, actuator, equality, option, control.
+"""
+
+from __future__ import annotations
+
+import fnmatch
+import re
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+
+from mjcont.errors import ParameterError, unknown_name
+from mjcont.quantities import Target
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_PATH = re.compile(
+    r"(?P<object>\w+):(?P<pattern>[^.\[\]]+?)(?:\.(?P<attr>\w+))?(?:\[(?P<index>\d+)\])?"
+    rf"(?:\*(?P<factor>{_NUMBER}))?(?P<offset>\+{_NUMBER}|-{_NUMBER})?"
+)
+_OBJECTS = {
+    "joint": ("jnt_", mujoco.mjtObj.mjOBJ_JOINT, "njnt"),
+    "body": ("body_", mujoco.mjtObj.mjOBJ_BODY, "nbody"),
+    "site": ("site_", mujoco.mjtObj.mjOBJ_SITE, "nsite"),
+    "geom": ("geom_", mujoco.mjtObj.mjOBJ_GEOM, "ngeom"),
+    "tendon": ("tendon_", mujoco.mjtObj.mjOBJ_TENDON, "ntendon"),
+    "actuator": ("actuator_", mujoco.mjtObj.mjOBJ_ACTUATOR, "nu"),
+    "equality": ("eq_", mujoco.mjtObj.mjOBJ_EQUALITY, "neq"),
+}
+_PER_DOF = {"damping", "armature", "frictionloss"}
+_RENAMED = {
+    ("tendon", "springlength"): "tendon_lengthspring",
+    ("joint", "springref"): "qpos_spring",
+}
+_DERIVED_CONSTANTS = frozenset(mujoco.MjModel._setconst_inputs)
+
+
+def is_bush(model: mujoco.MjModel, actuator: int) -> bool:
+    """Whether an actuator is a passive bush element: prefix `bush_` and no gain."""
+    name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, actuator) or ""
+    return name.startswith("bush_") and not model.actuator_gainprm[actuator].any()
+
+
+def controls(model: mujoco.MjModel) -> dict[str, int]:
+    """Return the names of the actuators that a user can command, with their control index."""
+    found = {}
+    for i in range(model.nu):
+        name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, i) or f"actuator{i}"
+        if not is_bush(model, i):
+            found[name] = int(model.actuator_ctrladr[i])
+    return found
+
+
+def element_names(model: mujoco.MjModel, kind: str) -> list[str]:
+    """Return the names of all joints, bodies, ... of the model (empty string where unnamed)."""
+    _, obj, count = _OBJECTS[kind]
+    return [mujoco.mj_id2name(model, obj, i) or "" for i in range(getattr(model, count))]
+
+
+def _field_entries(model: mujoco.MjModel, kind: str, attr: str, ids: Sequence[int]) -> tuple[str, np.ndarray]:
+    """Return the field's name and the flat indices of the elements' entries, shape (n elements, width)."""
+    prefix, _, _ = _OBJECTS[kind]
+    field = _RENAMED.get((kind, attr), prefix + attr)
+    if kind == "joint" and attr in _PER_DOF:
+        field = "dof_" + attr
+    array = getattr(model, field, None)
+    if not _is_continuous(array):
+        starts = (prefix, "dof_") if kind == "joint" else (prefix,)
+        fields = [f for f in dir(model) if f.startswith(starts) and _is_continuous(getattr(model, f))]
+        valid = {f.split("_", 1)[1] for f in fields} | {a for k, a in _RENAMED if k == kind}
+        raise unknown_name(f"attribute of a {kind}", attr, valid)
+    assert array is not None
+    if field.startswith("dof_"):
+        rows = [[d for d in range(model.nv) if model.dof_jntid[d] == j] for j in ids]
+        return field, np.array([i for row in rows for i in row], dtype=int).reshape(-1, 1)
+    if field == "qpos_spring":
+        return field, np.array([model.jnt_qposadr[j] for j in ids], dtype=int).reshape(-1, 1)
+    width = array.size // array.shape[0]
+    return field, np.array([np.arange(i * width, (i + 1) * width) for i in ids], dtype=int)
+
+
+def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
+    """Turn a path into targets of this model.
+
+    Raises
+    ------
+    ParameterError
+        If the path does not parse, or matches nothing in the model.
+    NameLookupError
+        If the object kind or attribute does not exist; the message lists the valid ones.
+    """
+    match = _PATH.fullmatch(path)
+    if match is None:
+        raise ParameterError(f"cannot read target '{path}': expected object:name.attribute[index]*factor+offset")
+    kind, pattern, attr = match["object"], match["pattern"], match["attr"]
+    factor, offset = float(match["factor"] or 1.0), float(match["offset"] or 0.0)
+    if factor == 0.0:
+        raise ParameterError(f"target '{path}': the factor must not be zero")
+    if kind == "control":
+        known = controls(model)
+        names = [n for n in known if fnmatch.fnmatchcase(n, pattern)]
+        if not names:
+            raise unknown_name("control", pattern, known)
+        return [Target("ctrl", tuple(known[n] for n in names), factor, offset, path)]
+    if kind == "option":
+        return [Target("opt." + pattern, _option_index(model, pattern, match["index"]), factor, offset, path)]
+    if kind not in _OBJECTS:
+        raise unknown_name("object in a target path", kind, [*_OBJECTS, "option", "control"])
+    if attr is None:
+        raise ParameterError(f"target '{path}': an attribute is missing, as in {kind}:{pattern}.stiffness")
+    names = element_names(model, kind)
+    ids = [i for i, n in enumerate(names) if n and fnmatch.fnmatchcase(n, pattern)]
+    if not ids:
+        listing = ", ".join(n for n in names if n) or "none"
+        raise ParameterError(f"target '{path}' matches no {kind} of the model. Its {kind} names: {listing}.")
+    field, entries = _field_entries(model, kind, attr, ids)
+    if match["index"] is not None:
+        index = int(match["index"])
+        if index >= entries.shape[1]:
+            raise ParameterError(f"target '{path}': index {index} is outside 0..{entries.shape[1] - 1}")
+        entries = entries[:, index : index + 1]
+    return [Target(field, tuple(int(i) for i in entries.ravel()), factor, offset, path, field in _DERIVED_CONSTANTS)]
+
+
+def _is_continuous(field: object) -> bool:
+    return isinstance(field, float) or (isinstance(field, np.ndarray) and field.dtype.kind == "f")
+
+
+def _option_index(model: mujoco.MjModel, attr: str, index: str | None) -> tuple[int, ...]:
+    if not _is_continuous(getattr(model.opt, attr, None)):
+        names = [a for a in dir(model.opt) if not a.startswith("_")]
+        raise unknown_name("option", attr, [a for a in names if _is_continuous(getattr(model.opt, a))])
+    size = np.size(getattr(model.opt, attr))
+    if index is None:
+        return tuple(range(size))
+    if int(index) >= size:
+        raise ParameterError(f"target 'option:{attr}[{index}]': index {index} is outside 0..{size - 1}")
+    return (int(index),)
+
+
+def read_target(model: mujoco.MjModel, target: Target) -> np.ndarray:
+    """Return the parameter values that the target's entries imply, (len(index),)."""
+    if target.field == "ctrl":
+        return np.full(len(target.index), -target.offset / target.factor)
+    array = np.ravel(field_array(model, target.field))
+    return (array[list(target.index)] - target.offset) / target.factor
+
+
+def field_array(model: mujoco.MjModel, field: str) -> np.ndarray:
+    """Return a model's (or its options') field by name."""
+    owner = model.opt if field.startswith("opt.") else model
+    return np.asarray(getattr(owner, field.removeprefix("opt.")))

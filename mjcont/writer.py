@@ -1,0 +1,150 @@
+"""Writing parameter values into the fields of a model."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from mjcont.errors import ParameterError, unknown_name
+from mjcont.parameters import GRAVITY_ANGLE, LOAD_FACTOR, setting
+from mjcont.paths import field_array
+from mjcont.quantities import Parameter
+
+
+@dataclass(frozen=True, slots=True)
+class Gravity:
+    """gravity = n R(angle) g0, with R about `axis` (right-handed; the default turns -z towards -x)."""
+
+    g0: np.ndarray
+    axis: np.ndarray
+
+    @classmethod
+    def of(cls, model: mujoco.MjModel) -> Gravity:
+        """Read gravity and, from the text `mjcont/gravity_axis`, the axis it turns about."""
+        text = setting(model, "gravity_axis")
+        try:
+            axis = np.array([float(v) for v in text.split()]) if text else np.array([0.0, 1.0, 0.0])
+        except ValueError:
+            axis = np.zeros(0)
+        if axis.shape != (3,) or not axis.any():
+            raise ParameterError(f"mjcont/gravity_axis must be three numbers, not all zero; got '{text}'")
+        return cls(model.opt.gravity.copy(), axis / np.linalg.norm(axis))
+
+    def vector(self, angle: float, factor: float) -> np.ndarray:
+        """Return the gravity vector, (3,), by Rodrigues' formula."""
+        a, g = self.axis, self.g0
+        c, s = math.cos(angle), math.sin(angle)
+        return factor * (c * g + s * np.cross(a, g) + (1.0 - c) * np.dot(a, g) * a)
+
+
+class FieldWriter:
+    """Writes parameter values into one model (and the control vector), touching only what changed.
+
+    What is written depends on the values alone, not on what was written before: a parameter at the model's own value
+    leaves its entries as loaded, and where several act on one entry, the last declared of the others decides.
+    """
+
+    def __init__(self, model: mujoco.MjModel, parameters: Mapping[str, Parameter], gravity: Gravity) -> None:
+        self.model = model
+        self.gravity = gravity
+        self.ctrl = np.zeros(model.nu)
+        self.version = 0
+        self._data = mujoco.MjData(model)
+        self._loaded: dict[str, np.ndarray] = {
+            "body_mass": model.body_mass.copy(),
+            "body_inertia": model.body_inertia.copy(),
+        }
+        self._written = {name: p.value for name, p in parameters.items()}
+        self._groups: dict[str, tuple[str, ...]] = {}
+        self._grouped = 0
+
+    def write(self, parameters: Mapping[str, Parameter], values: Mapping[str, float]) -> None:
+        """Make the model have `values`; names that are left out have the model's own."""
+        if not values.keys() <= parameters.keys():
+            raise unknown_name("parameter", next(n for n in values if n not in parameters), parameters)
+        written = self._written
+        new = {n: values.get(n, p.value) for n, p in parameters.items()}
+        changed = [n for n, v in new.items() if written.get(n, parameters[n].value) != v]
+        if not changed:
+            return
+        try:
+            self._rewrite(parameters, changed, new)
+        except BaseException:  # an interrupt half-way: everything is written anew next time
+            written.clear()
+            raise
+
+    def _rewrite(self, parameters: Mapping[str, Parameter], changed: list[str], new: Mapping[str, float]) -> None:
+        written = self._written
+        constants = model_changed = False
+        written.update(new)
+        for group in dict.fromkeys(self._group(parameters, name) for name in changed):
+            members = [parameters[n] for n in group]
+            for parameter in members:
+                self._restore(parameter)
+            for parameter in members:
+                if written.get(parameter.name, parameter.value) != parameter.value:
+                    self._apply(parameter)
+            constants |= any(p.needs_constants for p in members)
+            model_changed |= any(p.kind != "control" for p in members)
+        if constants:
+            mujoco.mj_setConst(self.model, self._data)
+        self.version += model_changed
+
+    def _group(self, parameters: Mapping[str, Parameter], name: str) -> tuple[str, ...]:
+        """Return the parameters that share entries with `name`, directly or through others, as declared."""
+        if self._grouped != len(parameters):
+            self._groups, self._grouped = {}, len(parameters)
+        if name not in self._groups:
+            entries, group, grown = set(parameters[name].entries), {name}, True
+            while grown:
+                new = {n for n, p in parameters.items() if n not in group and not entries.isdisjoint(p.entries)}
+                entries |= {e for n in new for e in parameters[n].entries}
+                group |= new
+                grown = bool(new)
+            self._groups[name] = tuple(n for n in parameters if n in group)
+        return self._groups[name]
+
+    def _restore(self, parameter: Parameter) -> None:
+        """Give the parameter's entries the values they had in the loaded model."""
+        if parameter.kind == "gravity":
+            self.model.opt.gravity[:] = self.gravity.g0
+        for target in parameter.targets:
+            index = list(target.index)
+            if target.field == "ctrl":
+                self.ctrl[index] = 0.0
+                continue
+            array = field_array(self.model, target.field)
+            if target.field not in self._loaded:
+                self._loaded[target.field] = array.copy()
+            self._put(target.field, index, self._loaded[target.field].reshape(-1)[index])
+            if target.field == "body_mass":
+                self.model.body_inertia[index] = self._loaded["body_inertia"][index]
+
+    def _apply(self, parameter: Parameter) -> None:
+        """Write the parameter's value into its entries."""
+        written = self._written
+        if parameter.kind == "gravity":
+            self.model.opt.gravity[:] = self.gravity.vector(written[GRAVITY_ANGLE], written[LOAD_FACTOR])
+        for target in parameter.targets:
+            index = list(target.index)
+            entry = target.offset + target.factor * written[parameter.name]
+            if target.field == "ctrl":
+                self.ctrl[index] = entry
+                continue
+            self._put(target.field, index, entry)
+            if target.field == "body_mass":
+                for body in index:
+                    if self._loaded["body_mass"][body] > 0:
+                        scale = entry / self._loaded["body_mass"][body]
+                        self.model.body_inertia[body] = scale * self._loaded["body_inertia"][body]
+
+    def _put(self, field: str, index: list[int], entry: float | np.ndarray) -> None:
+        array = field_array(self.model, field)
+        if array.ndim == 0:
+            setattr(self.model.opt, field.removeprefix("opt."), float(np.squeeze(entry)))
+        else:
+            array.reshape(-1)[index] = entry
