@@ -25,20 +25,9 @@ from scipy import sparse
 from mjcont.numerics.bordered import Factored, border, null_vectors, row_scale
 from mjcont.numerics.differences import bilinear_gradient, directional, second_form
 from mjcont.numerics.problem import Array
-from mjcont.numerics.system import Free, Local, System
+from mjcont.numerics.system import ROW_GUARD, Free, Local, System, equation_scale
 
-# a row of J may vanish at a special point: it must not be blown up on the way there
-_ROW_GUARD = 1e-3
 _GENERIC = np.array([0.8, 0.6])
-
-
-def equation_scale(local: Local) -> Array:
-    """Return 1 / (size of each equation) from the rows of J, guarded where they (or all of J) vanish, (n,)."""
-    largest = abs(local.jac).max(axis=1)
-    largest = largest.toarray().ravel() if sparse.issparse(largest) else largest
-    by_parameters = float(np.abs(local.par).max()) if local.par.size else 0.0
-    top = max(float(largest.max()), _ROW_GUARD * by_parameters, 1e-300)
-    return 1.0 / np.maximum(largest, _ROW_GUARD * top)
 
 
 class Fold:
@@ -181,7 +170,7 @@ class Hopf:
 
     def _row_scale(self, local: Local) -> Array:
         mass, damping, stiffness = self._unscaled(local)
-        return row_scale(np.abs(stiffness) + np.abs(damping) + np.abs(mass), _ROW_GUARD)
+        return row_scale(np.abs(stiffness) + np.abs(damping) + np.abs(mass), ROW_GUARD)
 
     def _unscaled(self, local: Local) -> tuple[Array, Array, Array]:
         scale = local.problem.state_scale

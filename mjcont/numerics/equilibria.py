@@ -164,7 +164,7 @@ class HopfDetector:
         a, b = spectrum_of(old), spectrum_of(new)
         if a.conservative and b.conservative:
             return False
-        return a.pair_count() != b.pair_count()
+        return a.pair_count() != b.pair_count() or abs(a.n_unstable - b.n_unstable) > 1
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
         near = approximate(self.system, old, new, self._fraction(old, new), self.settings)
@@ -197,7 +197,10 @@ class HopfDetector:
 
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
         """Return the Hopf points between the points; several are separated by bisection."""
-        if abs(spectrum_of(old).pair_count() - spectrum_of(new).pair_count()) > 1 and new.s - old.s > _CLOSE:
+        difference = abs(spectrum_of(old).pair_count() - spectrum_of(new).pair_count())
+        if difference == 0 and new.s - old.s <= _CLOSE:
+            return []
+        if difference != 1 and new.s - old.s > _CLOSE:  # several points here, or a Hopf point and a neutral saddle
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
             if not isinstance(middle, str):
                 halves = [(a, b) for a, b in ((old, middle), (middle, new)) if self.changed(a, b)]

@@ -21,6 +21,8 @@ from mjcont.numerics.system import Local, System
 
 _MOST_BISECTIONS = 40
 _OUTSIDE = 0.05
+# a test that grows by this while its sign change is bracketed has a pole there
+_POLE = 3.0
 
 
 @dataclass(slots=True)
@@ -47,6 +49,10 @@ class Located:
 
 class Retry(Exception):
     """The step between two points must be shortened: the next point may lie on another branch."""
+
+
+class Pole(Exception):
+    """A test function changes sign by growing beyond bounds: there is no zero."""
 
 
 class Detector(Protocol):
@@ -153,6 +159,7 @@ class ZeroDetector:
     settings: Settings
     name: str = ""
     differs: Callable[[CurvePoint, CurvePoint], bool] | None = None
+    _first: float = 0.0
 
     def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
         """Whether the test changes sign, or differs as told."""
@@ -168,7 +175,10 @@ class ZeroDetector:
         return float(point.extra[key])
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
-        near = approximate(self.system, old, new, zero_fraction(self._value(old), self._value(new)), self.settings)
+        a, b = self._value(old), self._value(new)
+        if self.differs is None and min(abs(a), abs(b)) > _POLE * self._first:
+            raise Pole
+        near = approximate(self.system, old, new, zero_fraction(a, b), self.settings)
         if near.failure:
             return None
         c = self.solve(near)
@@ -184,8 +194,12 @@ class ZeroDetector:
         return Located(self.kind, point_at(self.system, old, new, c, s), c.step, True, data, note)
 
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
-        """Return the zero between the points, if there is one."""
-        result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
+        """Return the zero between the points, if there is one; a pole is none."""
+        self._first = max(abs(self._value(old)), abs(self._value(new)))
+        try:
+            result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
+        except Pole:
+            return []
         return [result] if result is not None else []
 
 

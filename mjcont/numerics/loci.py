@@ -196,7 +196,7 @@ def _generalised_hopf(system: System, hopf: Hopf, settings: Settings) -> ZeroDet
     def solve_with(near: Corrected) -> Corrected:
         weight = abs(lyapunov_at(near.local)) or 1.0
         full, y = square_system(system, [FirstLyapunov(max(weight, 1e-3))], near)
-        return solve(full, near.x, y, tol=1e-11)
+        return solve(full, near.x, y, tol=1e-11, most=12)
 
     def finish(c: Corrected) -> tuple[dict[str, Any], str] | None:
         square = hopf.square(c.y[last : last + 1])

@@ -109,10 +109,10 @@ def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None,
         return Corrected(x, y, local, lu, iterations, ratio, size, np.inf, failure)
     jac = system.jacobian(local, y)
     factored = Factored(with_row(jac, row))
-    step, r = _newton_step(system, local, y, factored, row)
+    step, _ = _newton_step(system, local, y, factored, row)
     x, y = system.move(x, y, step)
     size = float(np.linalg.norm(step))
-    return Corrected(x, y, local, factored, iterations, ratio, size, system.error(local, r), "", jac)
+    return Corrected(x, y, local, factored, iterations, ratio, size, system.error(local, x, y), "", jac)
 
 
 def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int = 25, reach: float = 0.5) -> Corrected:
@@ -129,7 +129,7 @@ def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int =
     best_at = (x, y)
     for iteration in range(1, most + 1):
         factored = Factored(system.jacobian(local, y))
-        step, r = _newton_step(system, local, y, factored, None)
+        step, _ = _newton_step(system, local, y, factored, None)
         last, size = size, float(np.linalg.norm(step))
         if not np.isfinite(size) or (size > _LARGEST_STEP and iteration > 2):
             return Corrected(x, y, local, factored, iteration, np.inf, size, np.inf, "Newton's method diverged")
@@ -145,11 +145,10 @@ def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int =
             break
     x, y = best_at
     local = system.local(x, y)
-    r = system.residual(local, y)
     failure = "" if best < 1e-6 else "Newton's method did not converge"
     if not failure and np.linalg.norm(system.difference(x, y, x0, y0)) > 2.0 * reach:
         failure = "Newton's method left the neighbourhood"
-    return Corrected(x, y, local, factored, iteration, ratio, best, system.error(local, r), failure)
+    return Corrected(x, y, local, factored, iteration, ratio, best, system.error(local, x, y), failure)
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,11 +16,13 @@ from typing import Any, Protocol
 import numpy as np
 from scipy import sparse
 
-from mjcont.numerics.bordered import border, row_scale
+from mjcont.numerics.bordered import border
 from mjcont.numerics.problem import Array, Pencil, Problem, Values
 
 _LOG_SPAN = 1e3
 _GRADIENT_STEP = 1e-3
+# a row of J may vanish at a special point: it must not be blown up on the way there
+ROW_GUARD = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +109,15 @@ class Local:
         if self._pencil is None:
             self._pencil = self.problem.pencil(self.x, self.values, self.raw_jac)
         return self._pencil
+
+
+def equation_scale(local: Local) -> Array:
+    """Return 1 / (size of each equation) from the rows of J, guarded where they (or all of J) vanish, (n,)."""
+    largest = abs(local.jac).max(axis=1)
+    largest = largest.toarray().ravel() if sparse.issparse(largest) else largest
+    by_parameters = float(np.abs(local.par).max()) if local.par.size else 0.0
+    top = max(float(largest.max()), ROW_GUARD * by_parameters, 1e-300)
+    return 1.0 / np.maximum(largest, ROW_GUARD * top)
 
 
 class Condition(Protocol):
@@ -253,6 +264,13 @@ class System:
         for c, aux in zip(self.conditions, self._aux(y), strict=True):
             c.update(local, aux)
 
-    def error(self, local: Local, residual: Array) -> float:
-        """Return the largest force residual relative to the forces that unit steps cause: a dimensionless size."""
-        return float(np.max(np.abs(residual[: self.n]) * row_scale(local.jac)))
+    def error(self, local: Local, x: Array, y: Array) -> float:
+        """Return the largest residual of the equilibrium equations at (x, y), relative to the size of each equation.
+
+        `local` is an evaluation nearby, whose derivatives give those sizes.
+        """
+        f = self.problem.residual(x, self.values(y))
+        for c, aux in zip(self.conditions, self._aux(y), strict=True):
+            if c.unfolds:
+                f = f + aux[0] * c.direction  # type: ignore[attr-defined]
+        return float(np.max(np.abs(f) * equation_scale(local)))
