@@ -86,7 +86,7 @@ def continue_special(
     directions = check_direction(direction)
     lead = len(free) - 1
     traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
-    where = ", ".join(f"{p.name} = {show(point.parameters[p.name], problem.parameter(p.name).unit)}" for p in free)
+    where = ", ".join(f"{p.name} = {show(system.base[p.name], p.unit)}" for p in free)
     return collect(f"{kind} locus", system, traces, directions, f"from {point.label} at {where}", settings)
 
 
@@ -105,7 +105,7 @@ def free_parameters(
     free = []
     for name in names:
         low, high = check_bounds(problem, name, given.get(name, point.free.get(name)))
-        value, unit = point.parameters[name], problem.parameter(name).unit
+        value, unit = problem.values(point.parameters)[name], problem.parameter(name).unit
         if not low <= value <= high:
             raise BoundsError(
                 f"{point.label} has {name} = {show(value, unit)}, outside the bounds "
