@@ -31,12 +31,12 @@ if TYPE_CHECKING:
     from mjcont.branch import Branch, Column, Point, SpecialPoint
     from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
     from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
-    from mjcont.extend import extend
+    from mjcont.extension import extend
+    from mjcont.histories import History, simulate
     from mjcont.loci import continue_special
     from mjcont.mechanism import Mechanism
     from mjcont.numerics.settings import Settings
     from mjcont.plotting import plot
-    from mjcont.simulate import History, simulate
     from mjcont.stiffness import StiffnessStudy, stiffness_study
     from mjcont.storage import load
     from mjcont.study import load_study, run_study
@@ -46,12 +46,12 @@ _HOMES = {
     "mjcont.branch": ("Branch", "Column", "Point", "SpecialPoint"),
     "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
-    "mjcont.extend": ("extend",),
+    "mjcont.extension": ("extend",),
     "mjcont.loci": ("continue_special",),
     "mjcont.mechanism": ("Mechanism",),
     "mjcont.numerics.settings": ("Settings",),
     "mjcont.plotting": ("plot",),
-    "mjcont.simulate": ("History", "simulate"),
+    "mjcont.histories": ("History", "simulate"),
     "mjcont.stiffness": ("StiffnessStudy", "stiffness_study"),
     "mjcont.storage": ("load",),
     "mjcont.study": ("load_study", "run_study"),

@@ -40,7 +40,12 @@ def make_settings(options: Mapping[str, Any]) -> Settings:
     for name in options:
         if name not in valid:
             raise unknown_name("option", name, valid)
-    return Settings(**options)
+    given = dict(options)
+    if "ds" not in given and "ds_max" in given:
+        given["ds"] = min(Settings().ds, given["ds_max"])
+    if "ds_min" not in given and "ds" in given:
+        given["ds_min"] = min(Settings().ds_min, given["ds"])
+    return Settings(**given)
 
 
 def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) -> tuple[float, float]:

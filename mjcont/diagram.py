@@ -10,7 +10,13 @@ import numpy as np
 
 from mjcont.branch import Branch, Point, SpecialPoint
 from mjcont.collect import Progress, build_branch, ordered_rows, reporter
-from mjcont.continuation import check_bounds, continue_equilibria, equilibrium_detectors, make_settings
+from mjcont.continuation import (
+    check_bounds,
+    continue_equilibria,
+    equilibrium_detectors,
+    find_equilibrium,
+    make_settings,
+)
 from mjcont.errors import MjcontError
 from mjcont.numerics.arclength import CurvePoint, point_from
 from mjcont.numerics.bordered import Factored
@@ -183,11 +189,9 @@ def bifurcation_diagram(
     for start, keyframe in tries:
         if any(b.interrupted for b in branches):
             break
-        branch = continue_equilibria(
-            problem, parameter, bounds, start, keyframe=keyframe, progress=progress, **options
-        )
-        if not any(covers(b, branch.row(branch.start_index)) for b in branches):
-            branches.append(branch)
+        point = find_equilibrium(problem, start, keyframe=keyframe)
+        if not any(covers(b, point) for b in branches):
+            branches.append(continue_equilibria(problem, parameter, bounds, point, progress=progress, **options))
     queue = [p for b in branches for p in b.of_kind("BP")]
     done: list[SpecialPoint] = []
     while queue and not any(b.interrupted for b in branches):

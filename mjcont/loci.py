@@ -62,7 +62,7 @@ def continue_special(
         See their messages.
     """
     problem = point.problem
-    if point.kind not in CONTINUABLE:
+    if _followed_as(point) not in CONTINUABLE:
         raise MjcontError(
             f"a point of kind {point.kind or 'regular'} has no curve to follow. Valid kinds: {', '.join(CONTINUABLE)}."
         )
@@ -70,9 +70,9 @@ def continue_special(
         raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
     settings = make_settings(options)
     free = free_parameters(point, parameter, bounds)
-    kind = "LP" if point.kind == "BP" and point.curve == "LP locus" else point.kind
-    if kind == "LP" and len(free) > 2:
-        free = [p for p in free if p.name != list(point.free)[-1]] if point.kind == "BP" else free
+    kind = _followed_as(point)
+    if kind != point.kind:  # a point on a locus is followed with the parameter fixed that led to it
+        free = [p for p in free if p.name != list(point.free)[-1]]
     if len(free) != _CODIMENSION[kind] + 1:
         raise MjcontError(
             f"{point.label} lies on a curve in {len(free) - 1} parameters: a {_NAMES[kind]} curve has "
@@ -88,6 +88,14 @@ def continue_special(
     traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
     where = ", ".join(f"{p.name} = {show(system.base[p.name], p.unit)}" for p in free)
     return collect(f"{kind} locus", system, traces, directions, f"from {point.label} at {where}", settings)
+
+
+def _followed_as(point: SpecialPoint) -> str:
+    """Return the kind as which a point is followed: its own, or on a locus of folds (...) a fold (...)."""
+    on_locus = point.curve.endswith(" locus")
+    if on_locus and (point.kind == "UZ" or (point.kind == "BP" and point.curve == "LP locus")):
+        return point.curve.removesuffix(" locus")
+    return point.kind
 
 
 def free_parameters(

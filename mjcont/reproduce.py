@@ -249,7 +249,6 @@ def _draw(figure: int, script: Path, out: Path, stamp: str) -> None:
     # An interrupt ends this process: continuation would take it as a wish for a partial branch.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     matplotlib.rcdefaults()
-    sys.path.insert(0, str(script.parent))
     png, record = out / f"fig{figure:02d}.png", _record(out, figure)
     for old in (record, png):
         old.unlink(missing_ok=True)
@@ -266,7 +265,9 @@ def _draw(figure: int, script: Path, out: Path, stamp: str) -> None:
 
 
 def load_script(script: Path) -> ModuleType:
-    """Return the module of a figure's script."""
+    """Return the module of a figure's script, which may import its neighbours."""
+    if str(script.parent) not in sys.path:
+        sys.path.insert(0, str(script.parent))
     spec = importlib.util.spec_from_file_location(script.stem, script)
     if spec is None or spec.loader is None:
         raise MjcontError(f"cannot load {script}")

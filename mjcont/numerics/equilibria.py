@@ -29,7 +29,8 @@ from mjcont.numerics.spectrum import Spectrum, spectrum
 from mjcont.numerics.system import Local, System
 
 _NOT_TRANSVERSE = 1e-6
-_UNFOLDED = 1e-7
+# the unfolding of a true branch point vanishes with the square of the error of its location
+_UNFOLDED = 1e-12
 _DEGENERATE = 1e-9
 _CLOSE = 1e-6
 

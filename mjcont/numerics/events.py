@@ -20,7 +20,7 @@ from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Local, System
 
 _MOST_BISECTIONS = 40
-_OUTSIDE = 0.05
+_OUTSIDE = 1e-3
 # a test that grows by this while its sign change is bracketed has a pole there
 _POLE = 3.0
 

@@ -212,7 +212,7 @@ def unfolding_stop(system: System) -> Callable[[CurvePoint], str | None]:
     index = len(system.free)
 
     def stop(point: CurvePoint) -> str | None:
-        if abs(point.y[index]) > 1e-6:
+        if abs(point.y[index]) > 1e-9:
             return "the branch point does not persist when the second parameter moves: it unfolds"
         return None
 

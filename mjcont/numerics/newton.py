@@ -14,6 +14,7 @@ from mjcont.numerics.system import Local, System
 
 _SLOW = 0.5
 _DIVERGING = 2.0
+_NOISE = 1e-6
 _LARGEST_STEP = 2.0
 
 
@@ -97,6 +98,9 @@ def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None,
         x, y = system.move(x, y, step)
         local = system.local(x, y)
         if size <= settings.tol or (size <= 100.0 * settings.tol and size * ratio <= 0.1 * settings.tol):
+            failure = ""
+            break
+        if ratio > _SLOW and size <= _NOISE and iterations > 2:  # as close as the noise of f allows
             failure = ""
             break
         if ratio > _DIVERGING:

@@ -19,6 +19,7 @@ from mjcont.numerics.system import System
 _SMALL_FOLDS = 1e-5
 # a curve that ends on the bound where it is already adds no second point there
 _SAME_POINT = 1e-9
+_SAME_LOCATED = 1e-7
 
 
 class Status(Enum):
@@ -81,6 +82,7 @@ class Walker:
         point, h, count = start, settings.ds, 1
         for detector in self.detectors:
             detector.changed(point, point)
+        last: dict[str, Located] = {}
         largest = settings.max_size * max(1.0, self._size(start))
         while True:
             limit = self._limit(point, count, began)
@@ -94,7 +96,9 @@ class Walker:
                 yield step
                 return
             new, h, located, ending = step
+            located = [e for e in located if not self._known(e, last)]
             for special in located:
+                last[special.kind] = special
                 yield special
                 if special.kind in self.end_at:
                     yield End(Status.AT_SPECIAL_POINT, f"the curve was to end at a point of kind {special.kind}")
@@ -113,6 +117,13 @@ class Walker:
     def _size(self, point: CurvePoint) -> float:
         n = self.system.n  # positions of a free body carry a quaternion beside n coordinates: measure those alone
         return float(np.max(np.abs(point.x[:n]) / self.system.problem.state_scale))
+
+    def _known(self, special: Located, last: dict[str, Located]) -> bool:
+        """Whether a point was located just before: on both sides of a step's end, or twice in a flat stretch."""
+        if special.kind not in last or special.data.get("monitor") != last[special.kind].data.get("monitor"):
+            return False
+        p, q = special.point, last[special.kind].point
+        return float(np.linalg.norm(self.system.difference(p.x, p.y, q.x, q.y))) < _SAME_LOCATED
 
     def _limit(self, point: CurvePoint, count: int, began: float) -> End | None:
         settings = self.settings
