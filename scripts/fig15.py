@@ -1,0 +1,108 @@
+"""Figure 15: loci of the fold FP1 in both actuator forces at load factor 2.5.
+
+F_ret against F_ul at FP1 for gravity angles of -20, 0 and +20 deg. (a) Stars: cusps. (b) The cusp at 0 deg,
+magnified: beside it the locus turns a second time, where w . f_F_ret = 0 (w: left null vector). (c) Not in the
+paper: F_ul at the cusp as the gravity angle varies, for three load factors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from _gear import (
+    ANGLES,
+    LOAD_FACTORS,
+    Case,
+    cases,
+    found_cusps,
+    least_favourable,
+    loci_figure,
+    separates,
+    spread,
+)
+from scipy.interpolate import CubicSpline
+from scipy.optimize import brentq
+
+import mjcont as mc
+from mjcont.plotting import COLORS, draw_curve, mark, save_figure, set_panel_title
+from mjcont.reproduce import Finding, run_script, whole
+
+REACH = np.radians(30.0)
+
+
+def main(out: Path) -> list[Finding]:
+    """Draw the figure into a folder and return its findings."""
+    gear = mc.Mechanism.from_xml("nose_gear")
+    found = {n: cases(gear, n) for n in LOAD_FACTORS}
+    loci = found[2.5]
+    cusps = {n: _cusps(next(c for c in found[n] if c.degrees == 0)) for n in found}
+    figure = loci_figure(gear, loci, out / "fig15.png", panels=3)
+    _draw_cusps(figure.axes[2], cusps, found)
+    save_figure(figure, out / "fig15.png")
+    return [
+        found_cusps(loci),
+        separates(loci),
+        least_favourable(loci),
+        _varies(found),
+        _counter_intuitive(found[0.5], loci),
+        _gravity_aids(cusps),
+    ]
+
+
+def _cusps(case: Case) -> mc.Branch:
+    return whole(mc.continue_special(case.cusp, "gravity_angle", bounds=(-REACH, REACH)))
+
+
+def _draw_cusps(ax: Any, cusps: Mapping[float, mc.Branch], found: Mapping[float, Sequence[Case]]) -> None:
+    for (n, locus), color in zip(cusps.items(), COLORS[3:], strict=False):
+        angle, force = np.degrees(locus["gravity_angle"]), locus["F_ul"]
+        draw_curve(ax, angle, force, [("stable", 0, len(locus) - 1)], color=color)
+        for case in found[n]:
+            text = f"{n:g}" if case.degrees > 0 else ""
+            mark(ax, case.degrees, case.cusp["F_ul"], "CP", text, color=color)
+    ax.set(xlabel="gravity angle [deg]", ylabel="F_ul at the cusp [N]", xlim=np.degrees([-REACH, REACH]))
+    set_panel_title(ax, "(c)  cusps at load factors 0.5, 1, 2.5")
+
+
+def _varies(found: Mapping[float, Sequence[Case]]) -> Finding:
+    shares = {n: 100 * spread([c.cusp["F_ul"] for c in loci]) for n, loci in found.items()}
+    return Finding(
+        "At 2.5 g the unlock force at the cusp varies significantly with the gravity angle, unlike at 0.5 g.",
+        f"from -20 to +20 deg by {', '.join(f'{s:.1f} % at load factor {n:g}' for n, s in shares.items())}",
+        shares[0.5] < 10.0 and 20.0 < shares[2.5] < 22.0,
+    )
+
+
+def _counter_intuitive(light: Sequence[Case], heavy: Sequence[Case]) -> Finding:
+    pairs = [(-a.cusp["F_ul"], -b.cusp["F_ul"]) for a, b in zip(light, heavy, strict=True)]
+    shown = [f"{c.name}: {b:.1f} N instead of {a:.1f} N" for c, (a, b) in zip(light, pairs, strict=True)]
+    change = [b / a - 1 for a, b in pairs]
+    return Finding(
+        "At 0 and +20 deg the higher load needs less unlock force than 0.5 g does; at -20 deg about the same.",
+        "; ".join(shown),
+        abs(change[0]) < 0.01 and change[1] < -0.05 and change[2] < -0.05,
+    )
+
+
+def _gravity_aids(cusps: Mapping[float, mc.Branch]) -> Finding:
+    force = {n: CubicSpline(locus["gravity_angle"], locus["F_ul"]) for n, locus in cusps.items()}
+
+    def difference(angle: float) -> float:
+        return float(force[2.5](angle) - force[0.5](angle))
+
+    crossing = np.degrees(brentq(difference, *np.radians(ANGLES[::2])))
+    descent = [f"{-force[n](-REACH):.1f} N at {n:g}" for n in (0.5, 2.5)]
+    return Finding(
+        "Gravity aids unlocking at positive and small negative gravity angles, and works against it at about -20 deg "
+        "and below.",
+        f"along the cusps followed in gravity angle, load lowers the unlock force above {crossing:.1f} deg and raises "
+        f"it below ({', '.join(descent)} at -30 deg)",
+        -25.0 < crossing < -15.0 and difference(0.0) > 0 > difference(-REACH),
+    )
+
+
+if __name__ == "__main__":
+    run_script(main)
