@@ -28,6 +28,26 @@ def overcentre() -> None:
     save_figure(figure, OUT / "overview.png", dpi=110)
 
 
+def poses() -> None:
+    """Draw both mechanisms at their special points."""
+    mechanism = mc.Mechanism.from_xml("overcentre")
+    branch = mc.continue_equilibria(mechanism, "F", bounds=(-50, 50), start={"F": 50.0})
+    above, below = branch.point("LP2"), branch.point("LP1")
+    shown = {"fold LP2": above, "overcentre": branch.at(theta_1=0.0)[0], "fold LP1": below}
+    save_figure(mc.draw_poses(mechanism, shown, cols=3), OUT / "overcentre_poses.png", dpi=110)
+    gear = mc.Mechanism.from_xml("nose_gear")
+    slices = mc.continue_equilibria(gear, "F_ret", bounds=(3e5, 8e5), start={"F_ret": 4e5}, keyframe="uplock_above")
+    locus = mc.continue_special(slices.point("LP1"), "F_ul", bounds=(-1000, 0))
+    shown = {
+        "downlock": "downlock_below",
+        "retracted, fold LP1": slices.point("LP1"),
+        "cusp CP1": locus.point("CP1"),
+        "uplock": "uplock_below",
+    }
+    save_figure(mc.draw_poses(gear, shown, cols=4), OUT / "nose_gear_poses.png", dpi=110)
+
+
 if __name__ == "__main__":
     OUT.mkdir(exist_ok=True)
     overcentre()
+    poses()

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from mjcont.branch import Branch, Column, Point, SpecialPoint
     from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
     from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
+    from mjcont.drawing import add_poses, draw, draw_poses
     from mjcont.extension import extend
     from mjcont.histories import History, simulate
     from mjcont.loci import continue_special
@@ -46,6 +47,7 @@ _HOMES = {
     "mjcont.branch": ("Branch", "Column", "Point", "SpecialPoint"),
     "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
+    "mjcont.drawing": ("add_poses", "draw", "draw_poses"),
     "mjcont.extension": ("extend",),
     "mjcont.loci": ("continue_special",),
     "mjcont.mechanism": ("Mechanism",),
@@ -83,9 +85,12 @@ __all__ = [
     "StiffnessStudy",
     "StudyError",
     "VectorField",
+    "add_poses",
     "bifurcation_diagram",
     "continue_equilibria",
     "continue_special",
+    "draw",
+    "draw_poses",
     "extend",
     "find_equilibrium",
     "iterate_equilibria",

@@ -24,6 +24,7 @@ KIND_NAMES = {
     "ZH": "zero-Hopf point",
     "HH": "double Hopf point",
     "UZ": "user zero",
+    "CO": "corner",
     "EP": "end",
 }
 

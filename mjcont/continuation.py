@@ -13,6 +13,7 @@ from mjcont.branch import Branch, Point, show
 from mjcont.collect import Progress, collect, make_point, run_directions, special_point
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError, unknown_name
 from mjcont.numerics.arclength import CurvePoint, first_point
+from mjcont.numerics.corner import CornerDetector
 from mjcont.numerics.equilibria import (
     BranchPointDetector,
     HopfDetector,
@@ -307,6 +308,8 @@ def equilibrium_detectors(
         fold_detector(system, settings),
         HopfDetector(system, settings, neutral),
     ]
+    if getattr(system.problem, "constrained", False):
+        detectors.append(CornerDetector(system, settings))
     for name, value in zeros.items():
         monitor = monitor_of(system.problem, name, value)
         detectors.append(zero_detector(system, monitor, f"{name} = {value:g}", settings))

@@ -94,6 +94,8 @@ def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     if model.opt.disableflags & _DISABLE.mjDSBL_CLAMPCTRL:
         private.actuator_ctrllimited[:] = 0
     private.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
+    private.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
+    private.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # sparse constraint Jacobians are wrong in MuJoCo 4.0.0
     private.opt.disableflags |= int(_DISABLE.mjDSBL_SENSOR) | int(_DISABLE.mjDSBL_CLAMPCTRL)
     without_sensor_filters(model)
     return private
@@ -111,14 +113,22 @@ def refuse_unsupported(model: mujoco.MjModel) -> None:
         raise ModelError("plastic springs (springyield) make equilibria path dependent: set springyield to 0")
     if model.na:
         raise ModelError("actuators with activation states (muscle, filter, integrator) are not supported yet")
-    if constraints and model.neq and not off & _DISABLE.mjDSBL_EQUALITY:
-        raise ModelError("equality constraints are not supported yet: replace them by bushes (stiff springs)")
-    if constraints and not off & _DISABLE.mjDSBL_LIMIT and (model.jnt_limited.any() or model.tendon_limited.any()):
-        raise ModelError('joint or tendon limits are not supported yet: remove them or set <flag limit="disable"/>')
     if constraints and not off & _DISABLE.mjDSBL_FRICTIONLOSS and _has_friction(model):
-        raise ModelError("dry friction (frictionloss) carries no load at rest in MuJoCo: remove it")
-    if constraints and not off & _DISABLE.mjDSBL_CONTACT and _can_touch(model):
-        raise ModelError('contacts are not supported yet: set <flag contact="disable"/> or contype="0" conaffinity="0"')
+        raise ModelError(
+            "dry friction (frictionloss) carries no load at rest in MuJoCo, so rest under friction is no equilibrium: "
+            "remove it, or treat the model as frictionless with <flag frictionloss=\"disable\"/>"
+        )
+
+
+def is_constrained(model: mujoco.MjModel) -> bool:
+    """Return whether equality constraints, limits or contacts can act in the model."""
+    off = int(model.opt.disableflags)
+    if off & _DISABLE.mjDSBL_CONSTRAINT:
+        return False
+    equality = bool(model.neq) and not off & _DISABLE.mjDSBL_EQUALITY
+    limits = bool(model.jnt_limited.any() or model.tendon_limited.any()) and not off & _DISABLE.mjDSBL_LIMIT
+    contact = not off & _DISABLE.mjDSBL_CONTACT and _can_touch(model)
+    return equality or limits or contact
 
 
 def _has_friction(model: mujoco.MjModel) -> bool:
@@ -200,6 +210,8 @@ def describe(mechanism: Mechanism) -> str:
     m: Any = mechanism
     kinds = {"control": "control", "gravity": "gravity", "field": "model field"}
     lines = [f"{m.name}: {m.n} degrees of freedom, {len(m.bushes)} bush elements"]
+    if m.constrained:
+        lines[0] += ", with constraints (equalities, limits or contacts)"
     rows = [["name", "value", "unit", "from", "to", "acts on"]]
     for p in m.parameters.values():
         acts = kinds[p.kind] if p.kind != "field" else " ".join(t.path for t in p.targets)

@@ -26,10 +26,11 @@ from mjcont.observables import model_observables
 from mjcont.parameters import Declaration, collect_parameters, make_parameter
 from mjcont.paths import is_bush
 from mjcont.quantities import Observable, Parameter
-from mjcont.rows import Rows
+from mjcont.rows import ConstrainedRows, Rows, one_sided
 from mjcont.writer import FieldWriter, Gravity
 
 _MAX_BATCHES = 32
+_ACCELERATION_STEP = 1e-3
 
 
 class Mechanism:
@@ -79,6 +80,8 @@ class Mechanism:
         self._writer = FieldWriter(self._model, self.parameters, gravity)
         self._sensor_writer = FieldWriter(self._observed, self.parameters, gravity)
         self._sensor_data = mujoco.MjData(self._observed)
+        self.constrained = loading.is_constrained(model)
+        self._constrained_rows = ConstrainedRows(self._model) if self.constrained else None
         self._batches: dict[int, Rows] = {}
         self._mass_data = mujoco.MjData(self._model)
         self._held: tuple[str, ...] = ()
@@ -178,9 +181,7 @@ class Mechanism:
     def acceleration(self, qpos: Array, qvel: Array, values: Values | None = None) -> Array:
         """Return qacc at a state of motion, (nv,), in m/s^2 and rad/s^2."""
         self._writer.write(self.parameters, self.values(values))
-        rows = self._rows(1)
-        self._forces(np.asarray(qpos)[None], np.asarray(qvel)[None])
-        return rows.acceleration()[0].copy()
+        return self._accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
 
     def linearize(self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
@@ -191,6 +192,8 @@ class Mechanism:
         rows = self._forces(moved)
         f = rows[0].copy()
         jac = jacobian_from_rows(rows[1:], self.state_scale, rule)
+        if self._constrained_rows is not None:
+            jac = one_sided(jac, rows, self._constrained_rows.sides, steps)
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
             par[:, k] = self._parameter_derivative(x, values, name, f)
@@ -235,6 +238,12 @@ class Mechanism:
         return Pencil(mass, damping, -jac)
 
     def _mass(self, x: Array) -> Array:
+        """Return the mass matrix, (nv, nv); a soft constraint adds to it, since its force depends on acceleration."""
+        if self._constrained_rows is not None:
+            self.evaluations += 2 * self.n
+            steps, many = np.concatenate([np.eye(self.n), -np.eye(self.n)]), np.broadcast_to(x, (2 * self.n, self.nq))
+            rows = self._constrained_rows.forward(many, None, self._writer, _ACCELERATION_STEP * steps)
+            return (rows[self.n :] - rows[: self.n]).T / (2.0 * _ACCELERATION_STEP)
         data = self._mass_data
         data.qpos[:] = x
         mujoco.mj_fwdPosition(self._model, data)
@@ -253,8 +262,7 @@ class Mechanism:
         """Return (v, qacc) at steps (m, 2 nv) of position and velocity around rest at x, shape (m, 2 nv)."""
         self._writer.write(self.parameters, values)
         velocity = steps[:, self.n :]
-        self._forces(self._moved(x, steps[:, : self.n]), velocity)
-        return np.hstack([velocity, self._rows(len(steps)).acceleration()])
+        return np.hstack([velocity, self._accelerations(self._moved(x, steps[:, : self.n]), velocity)])
 
     # -- rigid-body zero modes -------------------------------------------------------------------------------
 
@@ -314,9 +322,28 @@ class Mechanism:
         return rows
 
     def _forces(self, qpos: Array, qvel: Array | None = None) -> Array:
-        """Return qfrc_smooth for every row, a live view (m, nv)."""
+        """Return the generalised forces at zero acceleration for every row, (m, nv)."""
         self.evaluations += len(qpos)
+        if self._constrained_rows is not None:
+            return self._constrained_rows.forward(qpos, qvel, self._writer)
         return self._rows(len(qpos)).forward(qpos, qvel, self._writer)
+
+    def _accelerations(self, qpos: Array, qvel: Array) -> Array:
+        """Return qacc for every row, (m, nv)."""
+        self.evaluations += len(qpos)
+        if self._constrained_rows is not None:
+            return self._constrained_rows.accelerations(qpos, qvel, self._writer)
+        rows = self._rows(len(qpos))
+        rows.forward(qpos, qvel, self._writer)
+        return rows.acceleration()
+
+    def active(self, x: Array, values: Values) -> frozenset[str]:
+        """Return the names of the limits and contacts that carry load at rest."""
+        if self._constrained_rows is None:
+            return frozenset()
+        self._writer.write(self.parameters, values)
+        self.evaluations += 1
+        return self._constrained_rows.active(x, self._writer)
 
     # -- observables -----------------------------------------------------------------------------------------
 

@@ -241,7 +241,7 @@ def place_labels(ax: Axes) -> None:
     ax.get_xlim(), ax.get_ylim()  # noqa: B018 - reading the limits makes matplotlib settle them
     figure = ax.get_figure(root=True)
     point = (figure.dpi if figure is not None else 72.0) / 72.0
-    ink, frame = _ink(ax), ax.bbox
+    ink, frame = drawn_points(ax), ax.bbox
     taken: list[Array] = []
     for note in notes:
         extent = note.get_window_extent()
@@ -268,7 +268,7 @@ def _xy(line: Line2D) -> Array:
     return np.asarray(line.get_xydata(), dtype=float).reshape(-1, 2)
 
 
-def _ink(ax: Axes) -> Array:
+def drawn_points(ax: Axes) -> Array:
     """Return points every two pixels along everything drawn as a line, (N, 2), in pixels."""
     points = [np.empty((0, 2))]
     for line in ax.lines:

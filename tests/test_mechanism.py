@@ -108,31 +108,10 @@ REFUSED = {
         {"actuator": '<general joint="hip" dyntype="integrator"/>'},
         r"actuators with activation states \(muscle, filter, integrator\) are not supported yet",
     ),
-    "equality": (
-        {"world": '<site name="wall"/>', "rest": '<equality><connect site1="tip" site2="wall"/></equality>'},
-        "equality constraints are not supported yet: replace them by bushes",
-    ),
-    "joint limit": ({"joint": 'range="-1 1"'}, "joint or tendon limits are not supported yet"),
-    "tendon limit": (
-        {"rest": '<tendon><fixed range="-1 1"><joint joint="hip" coef="1"/></fixed></tendon>'},
-        "joint or tendon limits are not supported yet",
-    ),
     "joint friction": ({"joint": 'frictionloss="1"'}, "dry friction .* carries no load at rest"),
     "tendon friction": (
         {"rest": '<tendon><fixed frictionloss="1"><joint joint="hip" coef="1"/></fixed></tendon>'},
         "dry friction .* carries no load at rest",
-    ),
-    "contact": (
-        {"world": '<geom type="plane" size="1 1 1"/>', "body": SPHERE},
-        "contacts are not supported yet",
-    ),
-    "contact pair": (
-        {
-            "world": '<geom name="floor" type="plane" size="1 1 1" contype="0" conaffinity="0"/>',
-            "body": SPHERE.replace("<geom", '<geom name="ball" contype="0" conaffinity="0"'),
-            "rest": '<contact><pair geom1="floor" geom2="ball"/></contact>',
-        },
-        "contacts are not supported yet",
     ),
 }
 

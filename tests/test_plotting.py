@@ -87,7 +87,7 @@ def test_labels_sit_off_the_curve_and_off_each_other(cusp):
     ax.figure.draw_without_rendering()
     place_labels(ax)
     boxes = [t.get_window_extent() for t in ax.texts]
-    ink = plotting._ink(ax)
+    ink = plotting.drawn_points(ax)
     for i, box in enumerate(boxes):
         assert not any(box.contains(*p) for p in ink)
         assert not any(box.overlaps(other) for other in boxes[i + 1 :])

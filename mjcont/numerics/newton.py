@@ -15,6 +15,7 @@ from mjcont.numerics.system import Local, System
 _SLOW = 0.5
 _DIVERGING = 2.0
 _NOISE = 1e-6
+_LARGEST_ERROR = 1e-7
 _LARGEST_STEP = 2.0
 
 
@@ -115,8 +116,10 @@ def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None,
     factored = Factored(with_row(jac, row))
     step, _ = _newton_step(system, local, y, factored, row)
     x, y = system.move(x, y, step)
-    size = float(np.linalg.norm(step))
-    return Corrected(x, y, local, factored, iterations, ratio, size, system.error(local, x, y), "", jac)
+    size, error = float(np.linalg.norm(step)), system.error(local, x, y)
+    if not error < _LARGEST_ERROR:
+        failure = "the corrector stalled away from the curve"
+    return Corrected(x, y, local, factored, iterations, ratio, size, error, failure, jac)
 
 
 def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int = 25, reach: float = 0.5) -> Corrected:

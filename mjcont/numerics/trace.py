@@ -11,6 +11,7 @@ from enum import Enum
 import numpy as np
 
 from mjcont.numerics.arclength import CurvePoint, advance, by_contraction, land, may_turn_twice, next_step
+from mjcont.numerics.corner import NEAR, cross
 from mjcont.numerics.events import Detector, Located, Retry
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import System
@@ -163,6 +164,10 @@ class Walker:
                 else:
                     self._fresh |= new.iterations > 4 and by_contraction(new) < 1.0
                     return new, next_step(h, new, self.settings), located, ending
+            if h < NEAR and not self.system.conditions:
+                crossed = cross(self.system, point, self.settings)
+                if crossed is not None:
+                    return crossed[0], self.settings.ds, [crossed[1]], None
             if self._fresh or not isinstance(new, str):
                 h *= 0.4
             self._fresh |= isinstance(new, str)

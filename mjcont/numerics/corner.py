@@ -1,0 +1,112 @@
+"""Corners: points at which a limit or a contact begins or ceases to carry load, so that a curve turns sharply.
+
+Equilibria are continuous there but their derivatives are not. A corner is crossed by leaving it along the tangent of
+the other side, in the direction in which the new set of loaded constraints persists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mjcont.numerics.arclength import CurvePoint, advance, point_from, tangent_at
+from mjcont.numerics.events import Located
+from mjcont.numerics.newton import correct
+from mjcont.numerics.problem import Array
+from mjcont.numerics.settings import Settings
+from mjcont.numerics.system import System
+
+NEAR = 1e-4
+_LEAVE = 1e-4
+_SHARP = 1e-8
+_EXACT = 1e-13
+
+
+def loaded(system: System, x: Array, y: Array) -> frozenset[str]:
+    """Return the names of the limits and contacts that carry load at (x, y)."""
+    problem: Any = system.problem
+    return problem.active(x, system.values(y)) if hasattr(problem, "active") else frozenset()
+
+
+def loaded_at(system: System, point: CurvePoint) -> frozenset[str]:
+    """Return the loaded constraints of a curve point, computed once."""
+    if "loaded" not in point.extra:
+        point.extra["loaded"] = loaded(system, point.x, point.y)
+    return point.extra["loaded"]
+
+
+def describe(before: frozenset[str], after: frozenset[str]) -> str:
+    """Return a sentence on what changes."""
+    parts = [f"{name} engages" for name in sorted(after - before)]
+    parts += [f"{name} releases" for name in sorted(before - after)]
+    return ", ".join(parts)
+
+
+@dataclass(slots=True)
+class CornerDetector:
+    """Changes of the loaded constraints that a step passes without being refused."""
+
+    system: System
+    settings: Settings
+
+    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether another set of constraints carries load."""
+        return loaded_at(self.system, old) != loaded_at(self.system, new)
+
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+        """Return the corner, by halving the step along the curve."""
+        before, after = loaded_at(self.system, old), loaded_at(self.system, new)
+        while new.s - old.s > _SHARP:
+            middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
+            if isinstance(middle, str):
+                break
+            old, new = (middle, new) if loaded_at(self.system, middle) == before else (old, middle)
+        return [Located("CO", new, new.s - old.s, True, {}, describe(before, after))]
+
+
+def cross(system: System, point: CurvePoint, settings: Settings) -> tuple[CurvePoint, Located] | None:
+    """Return the first point beyond a corner just ahead of `point`, and the corner; None if there is none."""
+    before = loaded_at(system, point)
+    reach = _distance(system, point, before)
+    if reach is None:
+        return None
+    x, y = system.move(point.x, point.y, reach * point.tangent)
+    beyond = system.move(x, y, _LEAVE * point.tangent)
+    after = loaded(system, *beyond)
+    tangent = tangent_at(system, system.local(*beyond), beyond[1])
+    # stiff stops hardly yield: a probe must move the state by more than the corner is known to
+    moves = float(np.linalg.norm(tangent[: system.n]))
+    probe = min(max(_LEAVE, 100.0 * _EXACT / max(moves, 1e-300)), 0.5)
+    sides = [s for s in (1.0, -1.0) if loaded(system, *system.move(x, y, s * probe * tangent)) == after]
+    sign = sides[0] if len(sides) == 1 else float(np.sign(tangent @ point.tangent)) or 1.0
+    guess = system.move(x, y, sign * _LEAVE * tangent)
+    c = correct(system, *guess, sign * tangent, None, settings)
+    if c.failure or loaded(system, c.x, c.y) != after:
+        return None
+    new = point_from(c, sign * tangent, point.s + reach + _LEAVE)
+    note = describe(before, after)
+    if new.tangent[system.n] * point.tangent[system.n] < 0:
+        note += f"; {system.names[0]} turns back: a non-smooth fold"
+    corner = CurvePoint(x, y, point.tangent, point.sign, point.local, point.factored, point.s + reach, point.error)
+    return new, Located("CO", corner, _SHARP, True, {}, note)
+
+
+def _distance(system: System, point: CurvePoint, before: frozenset[str]) -> float | None:
+    """Return how far along the tangent the loaded constraints change, within `NEAR`."""
+    low, high = 0.0, 0.0
+    for high in np.geomspace(1e-8, NEAR, 9):
+        if loaded(system, *system.move(point.x, point.y, high * point.tangent)) != before:
+            break
+        low = float(high)
+    else:
+        return None
+    while high - low > _EXACT:
+        middle = 0.5 * (low + high)
+        if loaded(system, *system.move(point.x, point.y, middle * point.tangent)) == before:
+            low = middle
+        else:
+            high = middle
+    return float(high)
