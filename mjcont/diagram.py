@@ -17,7 +17,7 @@ from mjcont.continuation import (
     find_equilibrium,
     make_settings,
 )
-from mjcont.errors import MjcontError
+from mjcont.errors import BoundsError, MjcontError
 from mjcont.numerics.arclength import CurvePoint, point_from
 from mjcont.numerics.bordered import Factored
 from mjcont.numerics.events import Located
@@ -97,6 +97,9 @@ def switch_branches(
 def _system_at(point: SpecialPoint, bounds: tuple[float, float] | None) -> System:
     ((name, own),) = point.free.items()
     low, high = check_bounds(point.problem, name, bounds or own)
+    if not low <= point.parameters[name] <= high:
+        value = point.parameters[name]
+        raise BoundsError(f"{point.label} has {name} = {value:g}, outside the bounds {low:g} .. {high:g}")
     problem: Any = point.problem
     return System(problem, problem.values(point.parameters), [Free(name, low, high, problem.parameter(name).unit)])
 
@@ -137,6 +140,8 @@ def _through(
     bp_point = CurvePoint(x, y, tangent, 0.0, local, Factored(with_row(system.jacobian(local, y), tangent)))
     known = {k: v for k, v in {**point.coefficients, **point.vectors}.items() if k in ("type", "c", "tangents", "w")}
     located = Located("BP", bp_point, point.tolerance, point.converged, known)
+    for half in halves:  # a curve that closes comes back to the point it left
+        half.special = [e for e in half.special if _away(system, e.point, bp_point)]
     minus, plus = (ordered_rows(h) if h.points else [] for h in halves)
     rows: list[tuple[CurvePoint, Located | None]] = [*minus[::-1], (bp_point, located), *plus]
     ends = [(h.end.status.value, h.end.message) for h in halves]
@@ -144,6 +149,10 @@ def _through(
     return build_branch(
         "equilibria", system, rows, ends, f"through {point.label}", len(minus), settings, neutral, notes
     )
+
+
+def _away(system: System, a: CurvePoint, b: CurvePoint) -> bool:
+    return float(np.linalg.norm(system.difference(a.x, a.y, b.x, b.y))) > _SAME
 
 
 def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool:

@@ -11,10 +11,11 @@ import numpy as np
 from mjcont.branch import Branch, SpecialPoint
 from mjcont.collect import Progress, build_branch, ordered_rows, reporter
 from mjcont.continuation import check_bounds, equilibrium_detectors, make_settings
-from mjcont.errors import MjcontError, ParameterError
-from mjcont.loci import locus_detectors
+from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.loci import default_ends, locus_detectors
 from mjcont.numerics.arclength import CurvePoint, first_point
 from mjcont.numerics.equilibria import critical_square
+from mjcont.numerics.events import Located
 from mjcont.numerics.loci import conditions_of, unfolding_stop
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
@@ -24,6 +25,7 @@ from mjcont.numerics.trace import Trace, Walker, trace
 from mjcont.storage import special_from_row
 
 _ENDS = ("first", "last")
+_SAME = 1e-4
 
 
 def extend(
@@ -73,6 +75,7 @@ def _own_options(branch: Branch) -> dict[str, Any]:
 
 
 def _free(branch: Branch, bounds: Any) -> list[Free]:
+    """Return the free parameters within the new bounds, which must hold the branch."""
     if bounds is not None and not isinstance(bounds, Mapping):
         if len(branch.free) > 1:
             raise ParameterError(f"several parameters are free ({', '.join(branch.free)}): give bounds as a mapping")
@@ -82,16 +85,30 @@ def _free(branch: Branch, bounds: Any) -> list[Free]:
         if name not in branch.free:
             raise ParameterError(f"'{name}' is not free on this branch. Free: {', '.join(branch.free)}.")
     ranges = {n: check_bounds(branch.problem, n, given.get(n, own)) for n, own in branch.free.items()}
+    for name, (low, high) in ranges.items():
+        column, slack = branch[name], 1e-9 * (high - low)
+        if column.min() < low - slack or column.max() > high + slack:
+            raise BoundsError(
+                f"bounds ({low:g}, {high:g}) of {name} leave out part of the branch, which runs from "
+                f"{column.min():g} to {column.max():g}"
+            )
     return [Free(n, low, high, branch.unit(n)) for n, (low, high) in ranges.items()]
 
 
 def _segment(
     branch: Branch, end: str, free: Sequence[Free], settings: Settings, progress: Progress | None
 ) -> Branch | None:
-    index, before = (0, 1) if end == "first" else (len(branch) - 1, len(branch) - 2)
-    values = branch.row(index).parameters
+    """Return what follows an end, walked from a regular row before it so that nothing at the end is missed."""
+    if _end(branch, end)[0] == "at special point":
+        return None
+    values = branch.row(0 if end == "first" else len(branch) - 1).parameters
     if any(not p.low < values[p.name] < p.high for p in free):
         return None
+    labels = branch.labels if end == "first" else branch.labels[::-1]
+    keep = next((i for i in range(1, len(labels) - 1) if not labels[i]), None)
+    if keep is None:
+        return None
+    index, before = (keep, keep + 1) if end == "first" else (len(branch) - 1 - keep, len(branch) - 2 - keep)
     system = _system(branch, index, free)
     neutral: list[Any] = []
     if branch.kind == "equilibria":
@@ -99,12 +116,32 @@ def _segment(
     else:
         kind = branch.kind.removesuffix(" locus")
         stop = unfolding_stop(system) if kind == "BP" else None
-        walker = Walker(system, settings, locus_detectors(kind, system, settings, True, {}), stop)
+        detectors = locus_detectors(kind, system, settings, True, {})
+        walker = Walker(system, settings, detectors, stop, frozenset(default_ends(kind)))
     start = _outward(system, branch, index, before, settings)
     if isinstance(start, str):
         return None
     run = trace(walker, start, reporter(walker.system, progress))
-    return _as_branch(branch, system, run, end, settings, neutral)
+    return _as_branch(branch, system, run, end, settings, neutral, _length(system, branch, index, end))
+
+
+def _length(system: System, branch: Branch, index: int, end: str) -> float:
+    """Return the arclength from a row to the end of the branch, which the new curve runs over again."""
+    rows = range(index, 0, -1) if end == "first" else range(index, len(branch) - 1)
+    step = -1 if end == "first" else 1
+    return sum(float(np.linalg.norm(_chord(system, branch, i, i + step))) for i in rows)
+
+
+def _chord(system: System, branch: Branch, i: int, j: int) -> Array:
+    """Return the scaled step from row i to row j in state and free parameters."""
+    problem: Any = branch.problem
+    step = problem.difference(branch.states[j], branch.states[i]) / problem.state_scale
+    columns = [(p, branch[p.name]) for p in system.free]
+    return np.concatenate([step, [p.coordinate(float(c[j])) - p.coordinate(float(c[i])) for p, c in columns]])
+
+
+def _end(branch: Branch, end: str) -> tuple[str, str]:
+    return branch.ends[0 if end == "first" else -1]
 
 
 def _system(branch: Branch, index: int, free: Sequence[Free]) -> System:
@@ -121,11 +158,7 @@ def _system(branch: Branch, index: int, free: Sequence[Free]) -> System:
 
 def _outward(system: System, branch: Branch, index: int, before: int, settings: Settings) -> CurvePoint | str:
     x, y = branch.states[index].copy(), system.start_y()
-    problem: Any = branch.problem
-    step = problem.difference(branch.states[index], branch.states[before]) / problem.state_scale
-    columns = [(p, branch[p.name]) for p in system.free]
-    move = [p.coordinate(float(c[index])) - p.coordinate(float(c[before])) for p, c in columns]
-    reference: Array = np.concatenate([step, move, np.zeros(system.k - len(system.free))])
+    reference = np.concatenate([_chord(system, branch, before, index), np.zeros(system.k - len(system.free))])
     point = first_point(system, x, y, 1.0, settings)
     if not isinstance(point, str) and point.tangent @ reference < 0:
         point = first_point(system, x, y, -1.0, settings)
@@ -133,14 +166,32 @@ def _outward(system: System, branch: Branch, index: int, before: int, settings: 
 
 
 def _as_branch(
-    branch: Branch, system: System, run: Trace, end: str, settings: Settings, neutral: Sequence[Any]
+    branch: Branch, system: System, run: Trace, end: str, settings: Settings, neutral: Sequence[Any], known: float
 ) -> Branch | None:
-    rows = ordered_rows(run)[1:]
+    """Return the rows of a run beyond the arclength that is known."""
+
+    def is_new(p: CurvePoint, e: Located | None) -> bool:
+        if e is None:
+            return p.s > known + _SAME
+        return p.s > known - _SAME and not _has(branch, system, e)
+
+    rows = [(p, e) for p, e in ordered_rows(run)[1:] if is_new(p, e)]
     if not rows:
         return None
     outcome = [(run.end.status.value, run.end.message)]
     rows = rows[::-1] if end == "first" else rows
     return build_branch(branch.kind, system, rows, outcome, branch.start, 0, settings, neutral)
+
+
+def _has(branch: Branch, system: System, e: Located) -> bool:
+    """Whether the branch has a special point of that kind at that place."""
+    problem, values = system.problem, system.values(e.point.y)
+    for p in branch.of_kind(e.kind):
+        moved = np.max(np.abs(problem.difference(e.point.x, p.state)) / problem.state_scale)
+        shifted = max(abs(f.coordinate(values[f.name]) - f.coordinate(p.parameters[f.name])) for f in system.free)
+        if max(moved, shifted) < _SAME:
+            return True
+    return False
 
 
 def _join(branch: Branch, segment: Branch, end: str) -> Branch:

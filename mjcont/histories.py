@@ -200,9 +200,9 @@ class _Run:
         return np.concatenate(states), np.concatenate(velocities)
 
     def _controls(self, writer: FieldWriter, begin: int, length: int) -> Array:
-        """Return the control vector at every step, (length, nu)."""
+        """Return the control vector at every step, (length, nu): inputs are taken at mid-step."""
         table = np.tile(writer.ctrl, (length, 1))
-        times = (begin + np.arange(length)) * self.model.opt.timestep
+        times = (begin + 0.5 + np.arange(length)) * self.model.opt.timestep
         for name, function in self.functions.items():
             series = np.array([function(t) for t in times])
             for target in self.mechanism.parameter(name).targets:
@@ -216,7 +216,7 @@ class _Run:
         data.qpos[:], data.qvel[:] = self.x, self.v
         states, velocities = [self.x.copy()], [self.v.copy()]
         for k in range(self.count):
-            t = k * self.model.opt.timestep
+            t = (k + 0.5) * self.model.opt.timestep
             writer.write(self.mechanism.parameters, {n: f(t) for n, f in self.functions.items()})
             data.ctrl[:] = writer.ctrl
             mujoco.mj_step(self.model, data)

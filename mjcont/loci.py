@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from mjcont.branch import Branch, SpecialPoint, show
+from mjcont.branch import KIND_NAMES, Branch, SpecialPoint, show
 from mjcont.collect import Progress, collect, run_directions
 from mjcont.continuation import check_bounds, check_direction, make_settings, monitor_of
-from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equilibria import zero_detector
 from mjcont.numerics.events import Detector
 from mjcont.numerics.loci import conditions_of, fold_locus_detectors, hopf_locus_detectors, unfolding_stop
@@ -81,13 +81,21 @@ def continue_special(
     system = locus_system(point, kind, free)
     stop: Callable[[Any], str | None] | None = unfolding_stop(system) if kind == "BP" else None
     detectors = locus_detectors(kind, system, settings, lyapunov, zeros or {})
-    ends = frozenset(end_at if end_at is not None else (("BT",) if kind == "HB" else ()))
+    for name in end_at or ():
+        if name not in KIND_NAMES:
+            raise unknown_name("kind of special point", name, KIND_NAMES)
+    ends = frozenset(end_at if end_at is not None else default_ends(kind))
     walker = Walker(system, settings, detectors, stop, ends)
     directions = check_direction(direction)
     lead = len(free) - 1
     traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
     where = ", ".join(f"{p.name} = {show(system.base[p.name], p.unit)}" for p in free)
     return collect(f"{kind} locus", system, traces, directions, f"from {point.label} at {where}", settings)
+
+
+def default_ends(kind: str) -> tuple[str, ...]:
+    """Return the kinds of points that end a locus unless asked otherwise."""
+    return ("BT",) if kind == "HB" else ()
 
 
 def _followed_as(point: SpecialPoint) -> str:

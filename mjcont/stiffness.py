@@ -109,11 +109,11 @@ def stiffness_study(
     span = bounds or (max(own[0], value * 1e-3), min(own[1], value * 1e3))
     locus = continue_special(point, parameter, bounds=span, **options)
     column = quantity or next(iter(point.free))
-    k, q = locus[parameter], locus[column]
-    stiff = np.argsort(k)[::-1]
-    if k[stiff[0]] <= value:
+    rows = _stiffening(locus[parameter], locus.start_index)
+    k, q = locus[parameter][rows], locus[column][rows]
+    if k[0] <= value:
         raise MjcontError(f"the locus of {point.label} does not reach larger {parameter}: {locus.message}")
-    limit = _extrapolated(k[stiff], q[stiff])
+    limit = _extrapolated(k, q)
     deviation = np.abs(q - limit) / max(abs(limit), 1e-300)
     outside = deviation > tol
     turns = [p for p in locus.special_points if p.kind in ("CP", "BP")]
@@ -123,6 +123,22 @@ def stiffness_study(
     else:
         converged = _crossing(k, deviation, tol)
     return StiffnessStudy(locus, parameter, column, tol, limit, converged, tuple(turns))
+
+
+def _stiffening(k: Array, start: int) -> Array:
+    """Return the rows of the run through `start` in which k changes monotonically, the stiffest first.
+
+    A locus that turns may have other runs, with another limit.
+    """
+    low = high = start
+    up = bool(np.argmax(k[[max(start - 1, 0), min(start + 1, len(k) - 1)]]) == 1)
+    sign = 1.0 if up else -1.0
+    while high + 1 < len(k) and sign * (k[high + 1] - k[high]) > 0:
+        high += 1
+    while low > 0 and sign * (k[low] - k[low - 1]) > 0:
+        low -= 1
+    rows = np.arange(low, high + 1)
+    return rows[::-1] if up else rows
 
 
 def _extrapolated(k: Array, q: Array) -> float:

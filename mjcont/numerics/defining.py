@@ -146,17 +146,17 @@ class BranchPoint:
 class Hopf:
     """P(s) is singular over R[s]/(s^2 + k): a pair of eigenvalues with sum zero and product k = omega^2.
 
-    The auxiliary unknown is k relative to the square of `rate`, so that it is about one.
+    The auxiliary unknown is asinh(k / rate^2): smooth through k = 0, and logarithmic where k grows by decades.
     """
 
     count, unfolds = 2, False
 
     def __init__(self, local: Local, square: float) -> None:
         self.rate = np.sqrt(abs(square)) if square else 1.0
-        self.aux = (square / self.rate**2,)
+        self.aux = (float(np.arcsinh(square / self.rate**2)),)
         self.rows = self._row_scale(local)
         n = local.problem.n
-        matrix = self._block(local, self.aux[0])
+        matrix = self._block(local, np.sinh(self.aux[0]))
         v, w = null_vectors(matrix, 2)
         # A generic vector q of the two-dimensional null space generates it over the algebra, and so does the left
         # vector p = w1 + s w0.
@@ -189,7 +189,7 @@ class Hopf:
 
     def value(self, local: Local, aux: Array) -> Array:
         """Return (g0, g1)."""
-        return self._solve(local, float(aux[0]))[1]
+        return self._solve(local, float(np.sinh(aux[0])))[1]
 
     def _solve(self, local: Local, k: float) -> tuple[Array, Array]:
         rhs = np.zeros(2 * len(self.b0) + 2)
@@ -200,17 +200,18 @@ class Hopf:
     def eigenvector(self, local: Local, aux: Array) -> Array:
         """Return the complex eigenvector q in physical units for s = i omega (k > 0), |q| = 1."""
         n = len(self.b0)
-        q, _ = self._solve(local, float(aux[0]))
-        full = (q[:n] + 1j * np.sqrt(abs(aux[0])) * q[n:]) * local.problem.state_scale
+        k = float(np.sinh(aux[0]))
+        q, _ = self._solve(local, k)
+        full = (q[:n] + 1j * np.sqrt(abs(k)) * q[n:]) * local.problem.state_scale
         return full / np.linalg.norm(full)
 
     def square(self, aux: Array) -> float:
         """Return omega^2 (negative at a neutral saddle), in 1/s^2."""
-        return float(aux[0]) * self.rate**2
+        return float(np.sinh(aux[0])) * self.rate**2
 
     def update(self, local: Local, aux: Array) -> None:
         """Take the present null vectors as borders."""
-        n, k = len(self.b0), float(aux[0])
+        n, k = len(self.b0), float(np.sinh(aux[0]))
         q, _ = self._solve(local, k)
         # the left null vector p of P(s): P(s)' p = 0, the same block matrix with transposed entries
         mass, damping, stiffness = (self.rows[:, None] * a for a in self._unscaled(local))

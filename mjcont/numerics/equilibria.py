@@ -33,6 +33,7 @@ _NOT_TRANSVERSE = 1e-6
 _UNFOLDED = 1e-12
 _DEGENERATE = 1e-9
 _CLOSE = 1e-6
+_SMALL = 1e-4
 
 
 def spectrum_of(point: CurvePoint) -> Spectrum:
@@ -81,7 +82,7 @@ class BranchPointDetector:
         c = solve(full, near.x, y)
         if c.failure or abs(c.y[self.system.k]) > _UNFOLDED:
             return None
-        s = within(self.system, old, new, c.x, c.y[: self.system.k])
+        s = within(self.system, old, new, c)
         if s is None:
             return None
         kernel, w = condition.null(c.local)
@@ -104,7 +105,7 @@ class BranchPointDetector:
         """
         result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
         if result is None:
-            raise Retry
+            raise Retry("the orientation changes without a branch point: another branch is near")
         return [result]
 
 
@@ -165,7 +166,21 @@ class HopfDetector:
         a, b = spectrum_of(old), spectrum_of(new)
         if a.conservative and b.conservative:
             return False
+        return self._differs(old, new) or self._returns(old, new)
+
+    def _differs(self, old: CurvePoint, new: CurvePoint) -> bool:
+        a, b = spectrum_of(old), spectrum_of(new)
         return a.pair_count() != b.pair_count() or abs(a.n_unstable - b.n_unstable) > 1
+
+    def _returns(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether the critical sum may cross zero and come back within the step, judged by its slope before."""
+        length = new.s - old.s
+        if length <= 0.0:
+            return False
+        a, b = critical_sum(spectrum_of(old)), critical_sum(spectrum_of(new))
+        new.extra["slope"] = (b - a) / length
+        slope = old.extra.get("slope")
+        return slope is not None and a * b > 0 and (a + 0.5 * slope * length) * a < 0 and length > _SMALL
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
         near = approximate(self.system, old, new, self._fraction(old, new), self.settings)
@@ -179,7 +194,7 @@ class HopfDetector:
         c = solve(full, near.x, y)
         if c.failure:
             return None
-        s = within(self.system, old, new, c.x, c.y[: self.system.k])
+        s = within(self.system, old, new, c)
         if s is None:
             return None
         point = point_at(self.system, old, new, c, s)
@@ -199,14 +214,16 @@ class HopfDetector:
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
         """Return the Hopf points between the points; several are separated by bisection."""
         difference = abs(spectrum_of(old).pair_count() - spectrum_of(new).pair_count())
+        if difference == 0 and spectrum_of(old).n_unstable == spectrum_of(new).n_unstable:
+            raise Retry("a mode may lose its damping and gain it back within the step")
         if difference == 0 and new.s - old.s <= _CLOSE:
             return []
         if difference != 1 and new.s - old.s > _CLOSE:  # several points here, or a Hopf point and a neutral saddle
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
             if not isinstance(middle, str):
-                halves = [(a, b) for a, b in ((old, middle), (middle, new)) if self.changed(a, b)]
+                halves = [(a, b) for a, b in ((old, middle), (middle, new)) if self._differs(a, b)]
                 return [e for a, b in halves for e in self.locate(a, b, found)]
-        result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
+        result = bisect(self.system, old, new, self._differs, self._settle, self.settings)
         if result is None:
             return []
         if result.kind == "NS":

@@ -20,7 +20,7 @@ from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Local, System
 
 _MOST_BISECTIONS = 40
-_OUTSIDE = 1e-3
+_OUTSIDE = 1e-6
 # a test that grows by this while its sign change is bracketed has a pole there
 _POLE = 3.0
 
@@ -48,7 +48,7 @@ class Located:
 
 
 class Retry(Exception):
-    """The step between two points must be shortened: the next point may lie on another branch."""
+    """The step between two points must be shortened; the argument is the reason, a clause."""
 
 
 class Pole(Exception):
@@ -96,15 +96,16 @@ def bisect(
     return None
 
 
-def within(system: System, old: CurvePoint, new: CurvePoint, x: Array, y: Array) -> float | None:
-    """Return the arclength of (x, y) if it lies on the piece of curve from old to new, else None."""
+def within(system: System, old: CurvePoint, new: CurvePoint, c: Corrected) -> float | None:
+    """Return the arclength of a solution if it lies on the piece of curve from old to new, else None."""
+    x, y = c.x, c.y[: system.k]
     length = new.s - old.s
     chord = system.difference(new.x, new.y, old.x, old.y)
     step = system.difference(x, y, old.x, old.y)
     size = float(np.linalg.norm(chord))
     along = float(step @ chord) / size
     aside = float(np.linalg.norm(step - along * chord / size))
-    slack = _OUTSIDE * length + 1e-9
+    slack = _OUTSIDE * length + 1e-9 + 10.0 * min(c.step, 1e-6)
     if -slack <= along <= size + slack and aside <= 0.3 * length + 1e-9:
         return old.s + min(max(along, 0.0), size)
     return None
@@ -184,7 +185,7 @@ class ZeroDetector:
         c = self.solve(near)
         if c.failure:
             return None
-        s = within(self.system, old, new, c.x, c.y[: self.system.k])
+        s = within(self.system, old, new, c)
         if s is None:
             return None
         done = self.finish(c)

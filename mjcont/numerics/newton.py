@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy import sparse
 
 from mjcont.numerics.bordered import Factored, border
 from mjcont.numerics.problem import Array, Problem, Values
@@ -197,7 +198,7 @@ def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array,
     mass = _mass_like(local)
     dt = _first_dt(local, mass)
     for _ in range(most):
-        dx = _solve_dense(mass / dt - _dense(local.raw_jac), local.f)
+        dx = _solve(mass / dt - local.raw_jac, local.f)
         size = float(np.max(np.abs(dx) / scale))
         if not np.isfinite(size) or size > 0.2:
             dt *= 0.25
@@ -206,30 +207,33 @@ def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array,
             continue
         x = problem.retract(x, dx)
         local = system.local(x, no_y)
-        newton = _solve_dense(-_dense(local.raw_jac), local.f)
+        newton = _solve(-local.raw_jac, local.f)
         if size < 1e-3 and np.max(np.abs(newton) / scale) < 1e-9:
             return x, ""
         dt *= 2.0 if size < 0.1 else 1.0
     return x, f"the motion from the start had not come to rest after {most} steps: it may drift or have no equilibrium"
 
 
-def _solve_dense(matrix: Array, rhs: Array) -> Array:
+def _solve(matrix: Any, rhs: Array) -> Array:
+    if sparse.issparse(matrix):
+        return Factored(matrix).solve(rhs)
     try:
         return np.linalg.solve(matrix, rhs)
     except np.linalg.LinAlgError:
         return np.linalg.lstsq(matrix, rhs, rcond=None)[0]
 
 
-def _dense(matrix: Any) -> Array:
-    return matrix if isinstance(matrix, np.ndarray) else matrix.toarray()
-
-
-def _mass_like(local: Local) -> Array:
+def _mass_like(local: Local) -> Any:
+    """Return the mass matrix, or the identity for a first-order system (sparse where its Jacobian is)."""
+    if sparse.issparse(local.raw_jac):
+        return sparse.identity(local.problem.n, format="csc")
     pencil = local.pencil
     return np.eye(local.problem.n) if pencil.mass is None else pencil.mass
 
 
-def _first_dt(local: Local, mass: Array) -> float:
+def _first_dt(local: Local, mass: Any) -> float:
     """Return a step over which the fastest motion is well resolved."""
-    fast = np.max(np.abs(_dense(local.raw_jac)) / np.maximum(np.abs(np.diag(mass)), 1e-300)[:, None])
+    stiffest = abs(local.raw_jac).max(axis=1)
+    stiffest = stiffest.toarray().ravel() if sparse.issparse(stiffest) else stiffest
+    fast = np.max(stiffest / np.maximum(np.abs(mass.diagonal()), 1e-300))
     return float(1.0 / max(fast, 1e-12))

@@ -23,6 +23,7 @@ STABLE, UNSTABLE, MARGINAL = "stable", "unstable", "marginal"
 _SYMMETRY_NOISE = 1e-8
 _DIFFERENCE_NOISE = 1e-10
 _ROUNDING = 1e-13
+_EIGENSOLVER = 1e-14
 _RIGID = 1e-7
 
 
@@ -99,15 +100,15 @@ def _measured_noise(mass: Array, damping: Array, stiffness: Array, s: complex, s
     """Return the error of an eigenvalue from the scatter of p . f, p and q its left and right vectors.
 
     A column of K is a difference over the step of the stencil, so its error is the scatter over that step; the
-    eigenvalue moves by p . dK q / p . P'(s) q (first-order perturbation).
+    eigenvalue moves by p . dK q / p . P'(s) q (first-order perturbation); the eigensolver adds its backward error.
     """
     u, _, vh = np.linalg.svd(s**2 * mass + s * damping + stiffness)
     p, q = u[:, -1], vh[-1].conj()
     slope = abs(np.vdot(p, (2.0 * s * mass + damping) @ q))
     spread = float(np.std(samples @ p.conj()))
-    largest = np.sqrt(np.abs(stiffness).max() / np.abs(np.diag(mass)).min())
-    solver = 1e-15 * largest
-    return 4.0 * spread * float(np.linalg.norm(q)) / (SECOND_ORDER.step * max(slope, 1e-300)) + solver
+    size = abs(s) ** 2 * np.abs(mass).max() + abs(s) * np.abs(damping).max() + np.abs(stiffness).max()
+    error = 4.0 * spread / SECOND_ORDER.step * float(np.linalg.norm(q)) + _EIGENSOLVER * size
+    return error / max(slope, 1e-300)
 
 
 def _symmetric(matrix: Array) -> bool:
@@ -132,10 +133,11 @@ def _conservative(mass: Array, damping: Array, stiffness: Array) -> Spectrum:
     squares = linalg.eigvalsh(stiffness, mass)
     noise = _DIFFERENCE_NOISE * np.abs(stiffness).max() / np.diag(mass).max()
     negative = int(np.count_nonzero(squares < -noise))
+    rounding = _ROUNDING * float(np.abs(ev).max(initial=0.0))
     if negative:
-        return Spectrum(ev, UNSTABLE, negative, 0.0, True)
-    touching = np.any(np.abs(squares) <= noise) or np.any(np.abs(ev.real) <= _ROUNDING * np.abs(ev).max())
-    return Spectrum(ev, MARGINAL if touching else STABLE, 0, 0.0, True)
+        return Spectrum(ev, UNSTABLE, negative, rounding, True)
+    touching = np.any(np.abs(squares) <= noise) or np.any(np.abs(ev.real) <= rounding)
+    return Spectrum(ev, MARGINAL if touching else STABLE, 0, rounding, True)
 
 
 def _sorted(ev: Array) -> Array:

@@ -23,6 +23,7 @@ _LOG_SPAN = 1e3
 _GRADIENT_STEP = 1e-3
 # a row of J may vanish at a special point: it must not be blown up on the way there
 ROW_GUARD = 1e-3
+_VANISHES = 1e-10
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +117,10 @@ def equation_scale(local: Local) -> Array:
     largest = abs(local.jac).max(axis=1)
     largest = largest.toarray().ravel() if sparse.issparse(largest) else largest
     by_parameters = float(np.abs(local.par).max()) if local.par.size else 0.0
-    top = max(float(largest.max()), ROW_GUARD * by_parameters, 1e-300)
+    top = max(float(largest.max()), ROW_GUARD * by_parameters)
+    if top < _VANISHES:  # a degenerate point: take the sizes a little beside it
+        beside = local.problem.residual(local.problem.retract(local.x, 0.1 * local.problem.state_scale), local.values)
+        top = max(10.0 * float(np.abs(beside).max()), 1e-300)
     return 1.0 / np.maximum(largest, ROW_GUARD * top)
 
 

@@ -159,8 +159,8 @@ class Walker:
                     continue
                 try:
                     located = self._between(point, new)
-                except Retry:
-                    reason = "the orientation changes without a branch point: another branch is near"
+                except Retry as retry:
+                    reason = str(retry)
                 else:
                     self._fresh |= new.iterations > 4 and by_contraction(new) < 1.0
                     return new, next_step(h, new, self.settings), located, ending
