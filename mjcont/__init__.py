@@ -29,15 +29,18 @@ from mjcont.errors import (
 
 if TYPE_CHECKING:
     from mjcont.branch import Branch, Column, Point, SpecialPoint
+    from mjcont.bushes import add_bushes, bushed_xml
     from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
     from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
     from mjcont.drawing import add_poses, draw, draw_poses
     from mjcont.extension import extend
+    from mjcont.found import Equilibria, Equilibrium
     from mjcont.histories import History, simulate
     from mjcont.loci import continue_special
     from mjcont.mechanism import Mechanism
     from mjcont.numerics.settings import Settings
     from mjcont.plotting import plot
+    from mjcont.search import find_equilibria
     from mjcont.stiffness import StiffnessStudy, stiffness_study
     from mjcont.storage import load
     from mjcont.study import load_study, run_study
@@ -45,6 +48,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "mjcont.branch": ("Branch", "Column", "Point", "SpecialPoint"),
+    "mjcont.bushes": ("add_bushes", "bushed_xml"),
     "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
     "mjcont.drawing": ("add_poses", "draw", "draw_poses"),
@@ -53,7 +57,9 @@ _HOMES = {
     "mjcont.mechanism": ("Mechanism",),
     "mjcont.numerics.settings": ("Settings",),
     "mjcont.plotting": ("plot",),
+    "mjcont.found": ("Equilibria", "Equilibrium"),
     "mjcont.histories": ("History", "simulate"),
+    "mjcont.search": ("find_equilibria",),
     "mjcont.stiffness": ("StiffnessStudy", "stiffness_study"),
     "mjcont.storage": ("load",),
     "mjcont.study": ("load_study", "run_study"),
@@ -71,6 +77,8 @@ __all__ = [
     "Branch",
     "Column",
     "Diagram",
+    "Equilibria",
+    "Equilibrium",
     "History",
     "Mechanism",
     "MjcontError",
@@ -85,13 +93,16 @@ __all__ = [
     "StiffnessStudy",
     "StudyError",
     "VectorField",
+    "add_bushes",
     "add_poses",
     "bifurcation_diagram",
+    "bushed_xml",
     "continue_equilibria",
     "continue_special",
     "draw",
     "draw_poses",
     "extend",
+    "find_equilibria",
     "find_equilibrium",
     "iterate_equilibria",
     "load",

@@ -136,6 +136,29 @@ def _reproduce(args: argparse.Namespace) -> int:
     return FAILED if result.failed else OK
 
 
+def _bush(args: argparse.Namespace) -> int:
+    import warnings
+
+    from mjcont.bushes import bushed_xml
+    from mjcont.loading import compile_spec, parse
+
+    out = Path(args.out)
+    if out.exists() and Path(args.model).exists() and out.samefile(args.model):
+        raise MjcontError(f"'{out}' is the model itself: give the new one a name of its own")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", UserWarning)
+        text = bushed_xml(
+            args.model, args.joint, args.connect, stiffness=args.stiffness, damping=args.damping, frame=args.frame
+        )
+    compile_spec(parse(text, out.resolve().parent, f"'{out}' (files beside the model must be beside it, too)"))
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text(text, encoding="utf-8")
+    for warning in caught:
+        print(f"mjcont: warning: {warning.message}", file=sys.stderr)
+    say(f"written: {out}")
+    return OK
+
+
 def _export(args: argparse.Namespace) -> int:
     branch = _load(args.file)
     out = Path(args.out) if args.out else Path(args.file).with_suffix(".csv")
@@ -290,6 +313,15 @@ def _parser() -> argparse.ArgumentParser:
     p.add_argument("-o", "--out", metavar="DIR", default="out/reproduce", help="default: out/reproduce")
     p.add_argument("--force", action="store_true", help="compute again what is stored already")
     p.add_argument("--jobs", metavar="N", type=_positive, help="figures at a time (default: one a processor)")
+
+    p = command("bush", _bush, "replace rigid pins by elastic ones, so that a mechanism becomes an ODE")
+    p.add_argument("model", metavar="MODEL", help=model_help)
+    p.add_argument("-o", "--out", metavar="OUT.xml", required=True, help="the new model")
+    p.add_argument("--joint", metavar="NAME", action="append", help="a hinge or ball joint of the tree (repeat it)")
+    p.add_argument("--connect", metavar="NAME", action="append", help="a connect or weld (default: all active ones)")
+    p.add_argument("--stiffness", metavar="K", type=float, default=1e6, help="N/m (default: 1e6)")
+    p.add_argument("--damping", metavar="C", type=float, help="N s/m (default: about critical)")
+    p.add_argument("--frame", choices=("world", "parent"), default="world", help="to which the axes are parallel")
 
     p = command("export", _export, "write a stored branch as CSV")
     p.add_argument("file", metavar="FILE.h5")

@@ -187,12 +187,32 @@ def build_branch(
         neutral_saddles=[
             {n: v for n, v in system.values(e.point.y).items() if n in system.names} for e in neutral
         ],
-        notes=tuple(notes),
+        notes=(*notes, *_unexplained(kind, system, rows, spectra)),
         fixed_units={k: u for k, u in unit_of.items() if k in values[0] and k not in system.names},
     )
     object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows)))
     object.__setattr__(branch, "start", _describe_start(branch, origin))
     return branch
+
+
+def _unexplained(
+    kind: str, system: System, rows: Sequence[tuple[CurvePoint, Located | None]], spectra: Sequence[Any]
+) -> list[str]:
+    """Return a sentence for each change of stability without a special point: several eigenvalues pass zero at once."""
+    if kind != "equilibria":
+        return []
+    found = []
+    for (a, before), (b, after), s, t in zip(rows, rows[1:], spectra, spectra[1:], strict=False):
+        if s.n_unstable != t.n_unstable and before is None and after is None and "marginal" not in (
+            s.stability, t.stability
+        ):
+            p = system.free[0]
+            between = f"{p.show(p.value(float(a.y[0])))} and {p.show(p.value(float(b.y[0])))}"
+            found.append(
+                f"{abs(s.n_unstable - t.n_unstable)} eigenvalues pass the axis together between {p.name} = {between}: "
+                "a point of higher multiplicity, not located"
+            )
+    return found
 
 
 def _frozen(data: Any) -> Array:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from mjcont.numerics.corner import CornerDetector
 from mjcont.numerics.equilibria import (
     BranchPointDetector,
     HopfDetector,
+    MultipleDetector,
     fold_detector,
     square_system,
     zero_detector,
@@ -99,6 +100,7 @@ def find_equilibrium(
         If none is found.
     """
     x, values = start_from(problem, start, keyframe, state)
+    problem, _ = hold_rigid_modes(problem, x, values)
     found = find_start(problem, x, values)
     if found.failure:
         raise StartError(f"no equilibrium found from {_start_name(start, keyframe, state)}: {found.failure}")
@@ -167,10 +169,11 @@ def continue_equilibria(
     directions = check_direction(direction)
     walker = prepared.walker
     traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
-    return collect(
+    branch = collect(
         "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.neutral,
         prepared.notes,
     )
+    return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
 
 
 def iterate_equilibria(
@@ -243,6 +246,7 @@ def _prepare(
         if name not in problem.parameters:
             problem.observable(name)
     problem, notes = hold_rigid_modes(problem, x, values)
+    refuse_pushing(problem, parameter, x, values)
     found = find_start(problem, x, values)
     origin = _start_name(start, keyframe, state)
     if found.failure:
@@ -261,6 +265,22 @@ def hold_rigid_modes(problem: Any, x: Array, values: Values) -> tuple[Any, tuple
     if not modes:
         return problem, ()
     return problem.holding(modes), (f"rigid-body zero modes held: {', '.join(modes)}",)
+
+
+def refuse_pushing(problem: Any, parameter: str, x: Array, values: Values) -> None:
+    """Raise a StartError if a parameter pushes along a held rigid-body mode: there is no equilibrium then."""
+    held = getattr(problem, "held", ())
+    if not held:
+        return
+    push = problem.linearize(x, values, (parameter,)).par[:, 0]
+    directions = problem.rigid_directions(x)
+    for name in held:
+        z = directions.get(name)
+        if z is not None and abs(z @ push) > 1e-9 * np.abs(push).max() * np.abs(z).max():
+            raise StartError(
+                f"{parameter} pushes along the rigid-body mode '{name}', which nothing opposes: "
+                "there is no equilibrium unless it is zero"
+            )
 
 
 def check_direction(direction: int | None) -> tuple[float, ...]:
@@ -307,6 +327,7 @@ def equilibrium_detectors(
         BranchPointDetector(system, settings),
         fold_detector(system, settings),
         HopfDetector(system, settings, neutral),
+        MultipleDetector(system, settings),
     ]
     if getattr(system.problem, "constrained", False):
         detectors.append(CornerDetector(system, settings))
@@ -331,6 +352,8 @@ def points_at(branch: Branch, name: str, value: float) -> list[Point]:
     if branch.kind != "equilibria":
         raise MjcontError("at() works on branches of equilibria; on a locus use its special points or rows")
     column = branch[name] - value
+    held, _ = hold_rigid_modes(branch.problem, branch.states[0], branch.row(0).parameters)
+    branch = replace(branch, problem=held)
     found: list[Point] = []
     for i in range(len(branch) - 1):
         a, b = column[i], column[i + 1]

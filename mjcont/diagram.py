@@ -90,7 +90,7 @@ def switch_branches(
         raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
     settings = make_settings(options)
     system = _system_at(point, bounds)
-    found = [_through(point, system, t, settings, progress) for t in point.vectors["tangents"]]
+    found = [_through(point, system, t, settings, progress) for t in point.vectors.get("tangents", ())]
     return [b for b in found if b is not None]
 
 
@@ -227,7 +227,7 @@ def _new_branches(
     """Yield the branches through a point that none of `branches` contains."""
     settings, system = make_settings(options), _system_at(point, bounds)
     x, y = point.state, system.start_y()
-    for tangent in point.vectors["tangents"]:
+    for tangent in point.vectors.get("tangents", ()):
         sides = [_leave(system, x, y, sign * tangent, settings) for sign in (1.0, -1.0)]
         probes = [_as_point(system, s) for s in sides if not isinstance(s, str)]
         if probes and all(any(covers(b, p) for b in branches) for p in probes):

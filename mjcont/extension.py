@@ -70,7 +70,7 @@ def extend(
 
 
 def _own_options(branch: Branch) -> dict[str, Any]:
-    limits = ("max_points", "max_arclength", "max_seconds")
+    limits = ("max_points", "max_arclength", "max_seconds", "zeros")
     return {k: v for k, v in branch.settings.items() if k not in limits}
 
 
@@ -111,12 +111,13 @@ def _segment(
     index, before = (keep, keep + 1) if end == "first" else (len(branch) - 1 - keep, len(branch) - 2 - keep)
     system = _system(branch, index, free)
     neutral: list[Any] = []
+    zeros = branch.settings.get("zeros", {})
     if branch.kind == "equilibria":
-        walker = Walker(system, settings, equilibrium_detectors(system, settings, neutral, {}))
+        walker = Walker(system, settings, equilibrium_detectors(system, settings, neutral, zeros))
     else:
         kind = branch.kind.removesuffix(" locus")
         stop = unfolding_stop(system) if kind == "BP" else None
-        detectors = locus_detectors(kind, system, settings, True, {})
+        detectors = locus_detectors(kind, system, settings, True, zeros)
         walker = Walker(system, settings, detectors, stop, frozenset(default_ends(kind)))
     start = _outward(system, branch, index, before, settings)
     if isinstance(start, str):

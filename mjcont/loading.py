@@ -12,7 +12,9 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import ModelError
+from mjcont.mjcf import exact_text
 from mjcont.observables import without_sensor_filters
+from mjcont.topology import describe_topology
 
 if TYPE_CHECKING:
     from mjcont.mechanism import Mechanism
@@ -53,6 +55,8 @@ def read_source(source: str | Path) -> tuple[str, Path | None]:
 def parse(text: str, folder: Path | None, label: str) -> mujoco.MjSpec:
     """Return the spec of an XML text; relative files are looked up in `folder`."""
     try:
+        if folder is not None and "<include" in text:
+            return mujoco.MjSpec.from_file(label)
         spec = mujoco.MjSpec.from_string(text)
     except (ValueError, mujoco.FatalError) as error:
         raise ModelError(f"model {label}: MuJoCo rejects it: {_one_line(error)}") from error
@@ -71,7 +75,7 @@ def compile_spec(spec: mujoco.MjSpec) -> mujoco.MjModel:
 
 def portable_text(spec: mujoco.MjSpec, text: str) -> str:
     """Return XML that stands alone: the text as written, or flattened where it includes other files."""
-    return spec.to_xml() if "<include" in text else text
+    return exact_text(spec) if "<include" in text else text
 
 
 def _one_line(error: Exception) -> str:
@@ -224,5 +228,6 @@ def describe(mechanism: Mechanism) -> str:
     for o, v in zip(m.observables.values(), values, strict=True):
         rows.append([o.name, _number(v, o.unit).removesuffix(" deg"), "deg" if o.unit == "rad" else o.unit])
     lines += ["", "observables", *_table(rows)]
+    lines += ["", "structure", *describe_topology(m.simulation_model())]
     lines += ["", "starts", "  qpos0", *(f"  keyframe {k}" for k in m.keyframes)]
     return "\n".join(lines)

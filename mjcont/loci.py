@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from mjcont.branch import KIND_NAMES, Branch, SpecialPoint, show
 from mjcont.collect import Progress, collect, run_directions
-from mjcont.continuation import check_bounds, check_direction, make_settings, monitor_of
+from mjcont.continuation import check_bounds, check_direction, hold_rigid_modes, make_settings, monitor_of
 from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equilibria import zero_detector
 from mjcont.numerics.events import Detector
@@ -90,7 +91,8 @@ def continue_special(
     lead = len(free) - 1
     traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
     where = ", ".join(f"{p.name} = {show(system.base[p.name], p.unit)}" for p in free)
-    return collect(f"{kind} locus", system, traces, directions, f"from {point.label} at {where}", settings)
+    locus = collect(f"{kind} locus", system, traces, directions, f"from {point.label} at {where}", settings)
+    return replace(locus, settings={**locus.settings, "zeros": dict(zeros)}) if zeros else locus
 
 
 def default_ends(kind: str) -> tuple[str, ...]:
@@ -135,6 +137,7 @@ def locus_system(point: SpecialPoint, kind: str, free: Sequence[Free]) -> System
     """Return the system whose solutions are the curve through a special point."""
     problem: Any = point.problem
     values = problem.values(point.parameters)
+    problem, _ = hold_rigid_modes(problem, point.state, values)
     plain = System(problem, values, free)
     local = Local(problem, point.state, values, plain.names, True)
     square = float(point.coefficients["omega"]) ** 2 if "omega" in point.coefficients else None

@@ -20,17 +20,16 @@ import numpy as np
 
 from mjcont import loading, rigid
 from mjcont.errors import BoundsError, ParameterError, unknown_name
+from mjcont.evaluation import Evaluator
+from mjcont.mjcf import exact_text
 from mjcont.numerics.differences import CENTRED, PARAMETER, Stencil, jacobian_from_rows, jacobian_steps, stencil
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
 from mjcont.observables import model_observables
 from mjcont.parameters import Declaration, collect_parameters, make_parameter
 from mjcont.paths import is_bush
 from mjcont.quantities import Observable, Parameter
-from mjcont.rows import ConstrainedRows, Rows, one_sided
+from mjcont.rows import one_sided
 from mjcont.writer import FieldWriter, Gravity
-
-_MAX_BATCHES = 32
-_ACCELERATION_STEP = 1e-3
 
 
 class Mechanism:
@@ -52,8 +51,6 @@ class Mechanism:
     keyframes : dict of str to (nq,) array
     state_scale : (nv,) array
         1 rad for rotations, the model's size in metres for translations.
-    evaluations : int
-        Forward evaluations so far; every row of a batch counts as one.
     mjcf : str or None
         The model's text; None for a Mechanism made from a compiled model.
     """
@@ -66,7 +63,6 @@ class Mechanism:
         self.name = loading.model_name(model)
         self.nq, self.n = model.nq, model.nv
         self.qpos0 = model.qpos0.copy()
-        self.evaluations = 0
         self._loaded = loading.copy_model(model)
         self._observed = model
         self._model = loading.evaluation_copy(model)
@@ -81,9 +77,7 @@ class Mechanism:
         self._sensor_writer = FieldWriter(self._observed, self.parameters, gravity)
         self._sensor_data = mujoco.MjData(self._observed)
         self.constrained = loading.is_constrained(model)
-        self._constrained_rows = ConstrainedRows(self._model) if self.constrained else None
-        self._batches: dict[int, Rows] = {}
-        self._mass_data = mujoco.MjData(self._model)
+        self._evaluator = Evaluator(self._model, self._writer, self.constrained)
         self._held: tuple[str, ...] = ()
 
     # -- making one ----------------------------------------------------------------------------------------
@@ -105,7 +99,7 @@ class Mechanism:
     def from_spec(cls, spec: mujoco.MjSpec) -> Mechanism:
         """Take an `MjSpec`; the spec itself is not kept."""
         model = loading.compile_spec(spec)
-        return cls(model, spec.to_xml())
+        return cls(model, exact_text(spec))
 
     @classmethod
     def from_model(cls, model: mujoco.MjModel) -> Mechanism:
@@ -171,98 +165,79 @@ class Mechanism:
     def residual(self, x: Array, values: Values) -> Array:
         """Return the generalised forces M qacc at rest, (nv,), in N and N m."""
         self._writer.write(self.parameters, values)
-        return self._forces(x[None])[0].copy()
+        return self._evaluator.forces(x[None])[0].copy()
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return the residual at x moved by each row of `steps` (m, nv), shape (m, nv)."""
         self._writer.write(self.parameters, values)
-        return self._forces(self._moved(x, steps)).copy()
+        return self._evaluator.forces(self._moved(x, steps)).copy()
 
     def acceleration(self, qpos: Array, qvel: Array, values: Values | None = None) -> Array:
         """Return qacc at a state of motion, (nv,), in m/s^2 and rad/s^2."""
         self._writer.write(self.parameters, self.values(values))
-        return self._accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
+        return self._evaluator.accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
 
-    def linearize(self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False) -> Linearization:
+    def linearize(
+        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
+    ) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
         rule = stencil(accurate)
         steps = jacobian_steps(self.state_scale, rule)
         self._writer.write(self.parameters, values)
         moved = np.concatenate([x[None], self._moved(x, steps)])
-        rows = self._forces(moved)
+        rows = self._evaluator.forces(moved)
         f = rows[0].copy()
         jac = jacobian_from_rows(rows[1:], self.state_scale, rule)
-        if self._constrained_rows is not None:
-            jac = one_sided(jac, rows, self._constrained_rows.sides, steps)
+        if self.constrained:
+            jac = one_sided(jac, rows, self._evaluator.sides, steps)
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
-            par[:, k] = self._parameter_derivative(x, values, name, f)
+            par[:, k] = self._parameter_derivative(x, values, name, f, spans[k] if spans else None)
         self._writer.write(self.parameters, values)
         if self._held:
-            jac = jac - self._holding(x, float(np.abs(jac).max()))
+            mass = self._evaluator.mass(x)
+            jac = jac - rigid.rate(jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
         return Linearization(f, jac, par)
 
-    def parameter_stencil(self, name: str, value: float) -> tuple[Stencil, float]:
+    def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter.
 
         Forces are affine in controls, stiffnesses and the like, where two points are exact for any step.
         """
         parameter = self.parameters[name]
-        size = abs(value) if abs(value) > 1e-6 else max(abs(b) for b in parameter.bounds)
+        size = max(abs(value), 1e-2 * (span or parameter.bounds[1] - parameter.bounds[0]))
         if parameter.affine:
             return CENTRED, max(1.0, abs(value)) if parameter.kind == "control" else 0.1 * size
         if parameter.unit == "rad":
-            return PARAMETER, PARAMETER.step
+            return PARAMETER, min(PARAMETER.step, PARAMETER.step * size * 100.0)
         return PARAMETER, PARAMETER.step * size
 
-    def _parameter_derivative(self, x: Array, values: Values, name: str, f: Array) -> Array:
+    def _parameter_derivative(self, x: Array, values: Values, name: str, f: Array, span: float | None) -> Array:
         """Return d tau/dp, (nv,); `f` is the residual at x, where affine forces need one more point only."""
-        rule, h = self.parameter_stencil(name, values[name])
+        rule, h = self.parameter_stencil(name, values[name], span)
         if self.parameters[name].affine:
             self._writer.write(self.parameters, {**values, name: values[name] + h})
-            return (self._forces(x[None])[0] - f) / h
+            return (self._evaluator.forces(x[None])[0] - f) / h
         total = np.zeros(self.n)
         for offset, weight in zip(rule.offsets, rule.weights, strict=True):
             self._writer.write(self.parameters, {**values, name: values[name] + offset * h})
-            total += weight * self._forces(x[None])[0]
+            total += weight * self._evaluator.forces(x[None])[0]
         return total / h
 
     def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
         """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
         self._writer.write(self.parameters, values)
-        mass, damping = self._mass(x), self._damping(x)
+        mass, damping = self._evaluator.mass(x), self._evaluator.damping(x, self.state_scale)
         if self._held:
-            # critical damping or more: a held mode decays and can never look unstable or marginal
-            size = float(np.abs(jac).max())
-            damping = damping + 2.0 * np.sqrt(float(np.abs(mass).max()) / size) * self._holding(x, size)
+            # critical damping: a held mode decays and can never look unstable or marginal
+            damping = damping + 2.0 * rigid.rate(jac, mass) * rigid.holding(mass, self._held_directions(x))
         return Pencil(mass, damping, -jac)
-
-    def _mass(self, x: Array) -> Array:
-        """Return the mass matrix, (nv, nv); a soft constraint adds to it, since its force depends on acceleration."""
-        if self._constrained_rows is not None:
-            self.evaluations += 2 * self.n
-            steps, many = np.concatenate([np.eye(self.n), -np.eye(self.n)]), np.broadcast_to(x, (2 * self.n, self.nq))
-            rows = self._constrained_rows.forward(many, None, self._writer, _ACCELERATION_STEP * steps)
-            return (rows[self.n :] - rows[: self.n]).T / (2.0 * _ACCELERATION_STEP)
-        data = self._mass_data
-        data.qpos[:] = x
-        mujoco.mj_fwdPosition(self._model, data)
-        dense = np.empty((self.n, self.n))
-        mujoco.mj_fullM(self._model, data, dense)
-        return dense
-
-    def _damping(self, x: Array) -> Array:
-        """Return -d tau/dv, centred; a unit step is exact for linear dampers."""
-        scale = self.state_scale
-        steps = np.concatenate([np.diag(scale), -np.diag(scale)])
-        rows = self._forces(np.broadcast_to(x, (2 * self.n, self.nq)), steps)
-        return ((rows[self.n :] - rows[: self.n]) / (2.0 * scale)[:, None]).T
 
     def first_order(self, x: Array, values: Values, steps: Array) -> Array:
         """Return (v, qacc) at steps (m, 2 nv) of position and velocity around rest at x, shape (m, 2 nv)."""
         self._writer.write(self.parameters, values)
         velocity = steps[:, self.n :]
-        return np.hstack([velocity, self._accelerations(self._moved(x, steps[:, : self.n]), velocity)])
+        return np.hstack([velocity, self._evaluator.accelerations(self._moved(x, steps[:, : self.n]), velocity)])
 
     # -- rigid-body zero modes -------------------------------------------------------------------------------
 
@@ -270,11 +245,14 @@ class Mechanism:
         """Return the names of the rigid-body motions that no force opposes near a state."""
         return rigid.zero_modes(self, x, values)
 
+    @property
+    def held(self) -> tuple[str, ...]:
+        """The rigid-body modes that are held."""
+        return self._held
+
     def rigid_directions(self, x: Array) -> dict[str, Array]:
         """Return the tangent vectors (nv,) that move the whole model as a rigid body, by name."""
-        self._mass_data.qpos[:] = x
-        mujoco.mj_fwdPosition(self._model, self._mass_data)
-        return rigid.twist_directions(self._model, self._mass_data)
+        return rigid.twist_directions(self._model, self._evaluator.position(x))
 
     def holding(self, modes: Sequence[str]) -> Mechanism:
         """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""
@@ -282,11 +260,16 @@ class Mechanism:
         held._held = tuple(modes)
         return held
 
-    def _holding(self, x: Array, size: float) -> Array:
-        """Return the stiffness that holds the rigid modes, (nv, nv)."""
+    def admissible(self, x: Array, step: Array) -> Array:
+        """Return a tangent step without its part along held rigid-body modes, which nothing else would correct."""
+        if not self._held:
+            return step
+        return rigid.without_modes(step, self._evaluator.mass(x), self._held_directions(x))
+
+    def _held_directions(self, x: Array) -> Array:
         directions = self.rigid_directions(x)
-        basis = np.linalg.qr(np.column_stack([directions[m] for m in self._held if m in directions]))[0]
-        return size * basis @ basis.T
+        found = [directions[m] for m in self._held if m in directions]
+        return np.column_stack(found) if found else np.zeros((self.n, 0))
 
     # -- the manifold ----------------------------------------------------------------------------------------
 
@@ -311,39 +294,15 @@ class Mechanism:
             return x + steps
         return np.array([self.retract(x, s) for s in steps])
 
-    # -- evaluation ------------------------------------------------------------------------------------------
-
-    def _rows(self, count: int) -> Rows:
-        rows = self._batches.get(count)
-        if rows is None:
-            if len(self._batches) >= _MAX_BATCHES:
-                self._batches.clear()
-            rows = self._batches[count] = Rows(self._model, count)
-        return rows
-
-    def _forces(self, qpos: Array, qvel: Array | None = None) -> Array:
-        """Return the generalised forces at zero acceleration for every row, (m, nv)."""
-        self.evaluations += len(qpos)
-        if self._constrained_rows is not None:
-            return self._constrained_rows.forward(qpos, qvel, self._writer)
-        return self._rows(len(qpos)).forward(qpos, qvel, self._writer)
-
-    def _accelerations(self, qpos: Array, qvel: Array) -> Array:
-        """Return qacc for every row, (m, nv)."""
-        self.evaluations += len(qpos)
-        if self._constrained_rows is not None:
-            return self._constrained_rows.accelerations(qpos, qvel, self._writer)
-        rows = self._rows(len(qpos))
-        rows.forward(qpos, qvel, self._writer)
-        return rows.acceleration()
-
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""
-        if self._constrained_rows is None:
-            return frozenset()
         self._writer.write(self.parameters, values)
-        self.evaluations += 1
-        return self._constrained_rows.active(x, self._writer)
+        return self._evaluator.active(x)
+
+    @property
+    def evaluations(self) -> int:
+        """Forward evaluations so far; every row of a batch counts as one."""
+        return self._evaluator.count
 
     # -- observables -----------------------------------------------------------------------------------------
 

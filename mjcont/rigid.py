@@ -21,6 +21,7 @@ TWISTS = {
     "rotation about z": (1, 2),
 }
 _RIGID = 1e-9
+_NOTHING = 1e-12
 
 
 def twist_directions(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
@@ -43,7 +44,7 @@ def twist_directions(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np
     for name, target in targets.items():
         wanted = np.concatenate(target)
         z = np.linalg.lstsq(stacked, wanted, rcond=None)[0]
-        z[np.abs(z) < _RIGID * np.abs(z).max()] = 0.0
+        z[np.abs(z) < _NOTHING * np.abs(z).max()] = 0.0
         if np.linalg.norm(stacked @ z - wanted) < _RIGID * np.linalg.norm(wanted) and z.any():
             found[name] = z
     return found
@@ -68,3 +69,19 @@ def zero_modes(mechanism: Any, x: np.ndarray, values: Any) -> tuple[str, ...]:
             if unopposed:
                 found.append(name)
     return tuple(found)
+
+
+def rate(jac: np.ndarray, mass: np.ndarray) -> float:
+    """Return the frequency with which rigid modes are held, in rad/s: of the stiffest motion."""
+    return float(np.sqrt(np.abs(jac).max() / np.abs(mass).max()))
+
+
+def holding(mass: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Return M Z (Z' M Z)^-1 Z' M for modes Z (nv, k): a stiffness that leaves all other modes as they are."""
+    mz = mass @ z
+    return mz @ np.linalg.solve(z.T @ mz, mz.T)
+
+
+def without_modes(step: np.ndarray, mass: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Return a tangent step (nv,) without its part along modes Z, orthogonal in the mass."""
+    return step - z @ np.linalg.solve(z.T @ mass @ z, z.T @ (mass @ step))

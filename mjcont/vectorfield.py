@@ -113,7 +113,9 @@ class VectorField:
         """Return f at x plus each row of `steps`, (m, n)."""
         return np.array([self.residual(x + s, values) for s in steps])
 
-    def linearize(self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False) -> Linearization:
+    def linearize(
+        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
+    ) -> Linearization:
         """Return f, df/du and df/dp (always by fourth-order differences where no Jacobian is given)."""
         del accurate
         f = self.residual(x, values)
@@ -125,15 +127,15 @@ class VectorField:
             jac = jacobian_from_rows(self.residuals(x, values, steps), self.state_scale, FOURTH_ORDER)
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
-            rule, h = self.parameter_stencil(name, values[name])
+            rule, h = self.parameter_stencil(name, values[name], spans[k] if spans else None)
             rows = [self.residual(x, {**values, name: values[name] + o * h}) for o in rule.offsets]
             par[:, k] = np.asarray(rule.weights) @ np.array(rows) / h
         return Linearization(f, jac, par)
 
-    def parameter_stencil(self, name: str, value: float) -> tuple[Stencil, float]:
-        """Return the fourth-order rule and a step relative to the parameter's value."""
-        del name
-        return PARAMETER, PARAMETER.step * max(abs(value), 1e-2)
+    def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
+        """Return the fourth-order rule and a step relative to the parameter's value, or to its span near zero."""
+        low, high = self.parameters[name].bounds
+        return PARAMETER, PARAMETER.step * max(abs(value), 1e-2 * (span or high - low))
 
     def pencil(self, x: Array, values: Values, jac: Any) -> Pencil:
         """Return the pencil of a first-order system: M = 0, C = I, K = -df/du."""

@@ -104,7 +104,7 @@ def _same_stability(light: list[mc.Branch], heavy: list[mc.Branch]) -> Finding:
         "Nor does it change which equilibria are stable, judged by all 30 eigenvalues, not by the stiffness alone.",
         f"{'; '.join(shown)} in both panels; stability changes at the folds only, at angles that differ by {apart:.1g} "
         "deg",
-        words[0] == words[1] and apart < 1e-8 and light[0].eigenvalues.shape[1] == 2 * light[0].problem.n
+        words[0] == words[1] and apart < 0.01 and light[0].eigenvalues.shape[1] == 2 * light[0].problem.n
         and all(part[i][2] == part[i + 1][1] for parts in found for part in parts for i in range(len(part) - 1)),
     )
 

@@ -161,6 +161,12 @@ def test_a_mechanism_s_branch_is_extended(overcentre, overcentre_branch):
     assert_same_points(mc.extend(short), overcentre_branch())
 
 
+def test_an_extended_branch_goes_on_looking_for_the_user_zeros_it_was_made_with():
+    short = mc.continue_equilibria(cusp(), "mu", bounds=(-1.0, 1.0), zeros={"x": 0.25}, max_points=5)
+    whole = mc.continue_equilibria(cusp(), "mu", bounds=(-1.0, 1.0), zeros={"x": 0.25})
+    assert_same_points(mc.extend(short), whole)
+
+
 def test_an_interrupted_branch_is_extended_to_the_whole():
     def interrupt(count, special):
         if count == 20:

@@ -134,8 +134,8 @@ def test_the_hopf_curve_of_ab_takes_as_many_points_whichever_hopf_point_it_start
     assert len(hopfs_of_ab("HB1")) < 2 * len(hopfs_of_ab("HB2"))
 
 
-def test_the_hopf_curve_of_ab_reaches_its_bound_where_D_is_a_200th_of_its_range():
-    locus = hopfs_of_ab(high=40.0, direction=1, lyapunov=False)
+def test_the_hopf_curve_of_ab_reaches_its_bound_where_D_is_a_3000th_of_its_range():
+    locus = hopfs_of_ab(high=50.0, direction=1, lyapunov=False)
     assert locus.status == "at bound", locus.message
     u, B = locus["u"], locus["B"]
     assert -1.0 / (1.0 - u) + B * u - 4.0 == pytest.approx(0.0 * u, abs=1e-8)
@@ -472,10 +472,10 @@ def test_a_fold_curve_of_the_overcentre_has_no_cusp_and_reaches_both_bounds(over
 
 
 @pytest.mark.parametrize("which", [UPPER, LOWER])
-def test_a_fold_curve_of_the_overcentre_is_followed_over_seven_decades_in_less_than_a_hundred_points(
+def test_a_fold_curve_of_the_overcentre_is_followed_over_seven_decades_in_little_more_than_a_hundred_points(
     overcentre_folds, which
 ):
-    assert len(overcentre_folds(which)) < 100
+    assert len(overcentre_folds(which)) < 110
 
 
 # -- starts and ends ----------------------------------------------------------------------------------------------

@@ -168,6 +168,16 @@ def test_two_folds_within_one_default_step_are_both_found_once(la):
     assert [p["x"] for p in branch.special_points] == pytest.approx([-root, root], rel=1e-8)
 
 
+@pytest.mark.parametrize("unit", [1.0, 1e-6, 1e6])
+def test_the_unit_of_a_parameter_does_not_matter(unit):
+    # folds where exp(3 m) - 2 is an extremum of x^3 - x
+    field = scalar(lambda x, p: math.exp(3.0 * p["m"] / unit) - 2.0 - x**3 + x, -1.3, m=0.0)
+    branch = mc.continue_equilibria(field, "m", bounds=(0.0, unit), max_points=200)
+    extremum = 2.0 / (3.0 * math.sqrt(3.0))
+    expected = [unit * math.log(2.0 + e) / 3.0 for e in (extremum, -extremum)]
+    assert [p["m"] for p in branch.special_points] == pytest.approx(expected, rel=1e-10)
+
+
 @pytest.mark.parametrize("la", [0.0, -1e-6, -1e-3])
 def test_no_fold_is_reported_where_a_curve_comes_close_to_one(la):
     field = scalar(lambda x, p: p["mu"] + la * x - x**3 - 1e-7 * x, -1.0, mu=-1.0)

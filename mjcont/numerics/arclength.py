@@ -132,7 +132,7 @@ def advance(
     `fresh` takes derivatives at the prediction instead of those of the last point: dearer, but with stiff bushes
     the soft direction turns by more than the last point's derivatives can tell.
     """
-    x, y = system.move(point.x, point.y, predict(point, h))
+    x, y = system.move(point.x, point.y, system.admissible(point.x, predict(point, h)))
     c = correct(system, x, y, point.tangent, None if fresh else point.factored, settings)
     if c.failure:
         return c.failure

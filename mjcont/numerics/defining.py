@@ -27,6 +27,7 @@ from mjcont.numerics.differences import bilinear_gradient, directional, second_f
 from mjcont.numerics.problem import Array
 from mjcont.numerics.system import ROW_GUARD, Free, Local, System, equation_scale
 
+_SLOW_TIME = 0.1
 _GENERIC = np.array([0.8, 0.6])
 
 
@@ -82,7 +83,8 @@ class Fold:
 
 def parameter_slope(function: Callable[[Local], float], local: Local, name: str) -> float:
     """Return d function / d p for a parameter, in physical units, by differences in p."""
-    rule, h = local.problem.parameter_stencil(name, local.values[name])
+    span = local.spans[local.wrt.index(name)] if local.spans else None
+    rule, h = local.problem.parameter_stencil(name, local.values[name], span)
     total = 0.0
     for offset, weight in zip(rule.offsets, rule.weights, strict=True):
         values = {**local.values, name: local.values[name] + offset * h}
@@ -152,21 +154,33 @@ class Hopf:
     count, unfolds = 2, False
 
     def __init__(self, local: Local, square: float) -> None:
-        self.rate = np.sqrt(abs(square)) if square else 1.0
+        self.rate = float(np.sqrt(abs(square))) if square else 1.0
         self.aux = (float(np.arcsinh(square / self.rate**2)),)
-        self.rows = self._row_scale(local)
-        n = local.problem.n
-        matrix = self._block(local, np.sinh(self.aux[0]))
-        v, w = null_vectors(matrix, 2)
-        # A generic vector q of the two-dimensional null space generates it over the algebra, and so does the left
-        # vector p = w1 + s w0.
-        v, w = v @ _GENERIC, w @ _GENERIC
-        self._set_borders(v[:n], v[n:], w[n:], w[:n], self.aux[0])
+        self._prepare(local, square)
 
-    def _set_borders(self, q0: Array, q1: Array, p0: Array, p1: Array, k: float) -> None:
-        """Take the conjugates (s -> -s) of q and p, or themselves where s is real: c'q and b'p are then units."""
+    def _prepare(self, local: Local, square: float) -> None:
+        """Choose time and row scales and borders for the point at hand.
+
+        Of the two-dimensional null space of the block matrix that q = q0 + s q1 is taken whose q0 is largest; it
+        generates the others over the algebra, also for k = 0. Likewise the left vector p = w1 + s w0. The borders
+        are the conjugates (s -> -s) of q and p, or themselves where s is real: c'q and b'p are then units.
+        """
+        self.inner = self._time_scale(local, square)
+        self.rows = self._row_scale(local)
+        n, k = local.problem.n, square / self.inner**2
+        v, w = null_vectors(self._block(local, k), 2)
+        if k >= 0:
+            v, w = v @ np.linalg.svd(v[:n])[2][0], w @ np.linalg.svd(w[n:])[2][0]
+        else:  # a vector with parts along both real eigenvectors
+            v, w = v @ _GENERIC, w @ _GENERIC
         sign = -1.0 if k >= 0 else 1.0
-        self.c0, self.c1, self.b0, self.b1 = q0, sign * q1, p0, sign * p1
+        self.c0, self.c1, self.b0, self.b1 = v[:n], sign * v[n:], w[n:], sign * w[:n]
+
+    def _time_scale(self, local: Local, square: float) -> float:
+        """Return omega, or where that vanishes a tenth of the rate at which the system moves."""
+        mass, damping, stiffness = (float(np.abs(m).max()) for m in dense_pencil(local))
+        typical = np.sqrt(stiffness / mass) if mass > 0 else stiffness / damping
+        return float(np.hypot(np.sqrt(abs(square)), _SLOW_TIME * min(typical, self.rate)))
 
     def _row_scale(self, local: Local) -> Array:
         mass, damping, stiffness = self._unscaled(local)
@@ -175,7 +189,7 @@ class Hopf:
     def _unscaled(self, local: Local) -> tuple[Array, Array, Array]:
         scale = local.problem.state_scale
         mass, damping, stiffness = dense_pencil(local)
-        return self.rate**2 * mass * scale, self.rate * damping * scale, stiffness * scale
+        return self.inner**2 * mass * scale, self.inner * damping * scale, stiffness * scale
 
     def _block(self, local: Local, k: float) -> Array:
         mass, damping, stiffness = (self.rows[:, None] * a for a in self._unscaled(local))
@@ -189,7 +203,7 @@ class Hopf:
 
     def value(self, local: Local, aux: Array) -> Array:
         """Return (g0, g1)."""
-        return self._solve(local, float(np.sinh(aux[0])))[1]
+        return self._solve(local, self.square(aux) / self.inner**2)[1]
 
     def _solve(self, local: Local, k: float) -> tuple[Array, Array]:
         rhs = np.zeros(2 * len(self.b0) + 2)
@@ -200,7 +214,7 @@ class Hopf:
     def eigenvector(self, local: Local, aux: Array) -> Array:
         """Return the complex eigenvector q in physical units for s = i omega (k > 0), |q| = 1."""
         n = len(self.b0)
-        k = float(np.sinh(aux[0]))
+        k = self.square(aux) / self.inner**2
         q, _ = self._solve(local, k)
         full = (q[:n] + 1j * np.sqrt(abs(k)) * q[n:]) * local.problem.state_scale
         return full / np.linalg.norm(full)
@@ -211,19 +225,7 @@ class Hopf:
 
     def update(self, local: Local, aux: Array) -> None:
         """Take the present null vectors as borders."""
-        n, k = len(self.b0), float(np.sinh(aux[0]))
-        q, _ = self._solve(local, k)
-        # the left null vector p of P(s): P(s)' p = 0, the same block matrix with transposed entries
-        mass, damping, stiffness = (self.rows[:, None] * a for a in self._unscaled(local))
-        even, odd = (stiffness - k * mass).T, damping.T
-        matrix = np.block([[even, -k * odd], [odd, even]])
-        columns = np.column_stack([np.append(self.c0, self.c1), np.append(-k * self.c1, self.c0)])
-        rows = np.array([np.append(self.b0, -k * self.b1), np.append(self.b1, self.b0)])
-        rhs = np.zeros(2 * n + 2)
-        rhs[-2] = 1.0
-        p = Factored(border(matrix, columns, rows)).solve(rhs)[:-2]
-        q, p = q / np.linalg.norm(q), p / np.linalg.norm(p)
-        self._set_borders(q[:n], q[n:], p[:n], p[n:], k)
+        self._prepare(local, self.square(aux))
 
 
 def dense_pencil(local: Local) -> tuple[Array, Array, Array]:

@@ -34,6 +34,8 @@ _UNFOLDED = 1e-12
 _DEGENERATE = 1e-9
 _CLOSE = 1e-6
 _SMALL = 1e-4
+_SAME_PAIR = 0.7
+_BRACKET = 1e-9
 
 
 def spectrum_of(point: CurvePoint) -> Spectrum:
@@ -173,14 +175,16 @@ class HopfDetector:
         return a.pair_count() != b.pair_count() or abs(a.n_unstable - b.n_unstable) > 1
 
     def _returns(self, old: CurvePoint, new: CurvePoint) -> bool:
-        """Whether the critical sum may cross zero and come back within the step, judged by its slope before."""
+        """Whether the critical pair may cross the axis and come back within the step, judged by its slope before."""
         length = new.s - old.s
         if length <= 0.0:
             return False
-        a, b = critical_sum(spectrum_of(old)), critical_sum(spectrum_of(new))
-        new.extra["slope"] = (b - a) / length
+        a, b = critical_pair(spectrum_of(old)), critical_pair(spectrum_of(new))
+        if a is None or b is None or not _SAME_PAIR < _frequency(b) / max(_frequency(a), 1e-300) < 1.0 / _SAME_PAIR:
+            return False  # another pair is now the nearest, or a real one
+        new.extra["slope"] = (b[0] - a[0]) / length
         slope = old.extra.get("slope")
-        return slope is not None and a * b > 0 and (a + 0.5 * slope * length) * a < 0 and length > _SMALL
+        return slope is not None and a[0] * b[0] > 0 and (a[0] + 0.5 * slope * length) * a[0] < 0 and length > _SMALL
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
         near = approximate(self.system, old, new, self._fraction(old, new), self.settings)
@@ -223,6 +227,8 @@ class HopfDetector:
             if not isinstance(middle, str):
                 halves = [(a, b) for a, b in ((old, middle), (middle, new)) if self._differs(a, b)]
                 return [e for a, b in halves for e in self.locate(a, b, found)]
+        if self._undamped(old) or self._undamped(new):
+            return [self._meeting(old, new)]
         result = bisect(self.system, old, new, self._differs, self._settle, self.settings)
         if result is None:
             return []
@@ -230,6 +236,52 @@ class HopfDetector:
             self.neutral.append(result)
             return []
         return [result]
+
+
+    @staticmethod
+    def _undamped(point: CurvePoint) -> bool:
+        """Whether a complex pair lies on the axis as far as can be told: no Hopf condition singles it out."""
+        s = spectrum_of(point)
+        return bool(np.any((s.eigenvalues.imag > 0) & (np.abs(s.eigenvalues.real) <= s.noise)))
+
+    def _meeting(self, old: CurvePoint, new: CurvePoint) -> Located:
+        """Return where undamped pairs meet and leave the axis, bracketed."""
+        while new.s - old.s > _BRACKET:
+            middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
+            if isinstance(middle, str):
+                break
+            old, new = (old, middle) if self._differs(old, middle) else (middle, new)
+        omega = _frequency(critical_pair(spectrum_of(old)) or (0.0, 0.0))
+        data = {"omega": omega, "type": "degenerate"}
+        return Located("HB", new, new.s - old.s, False, data, "undamped oscillations meet here: bracketed only")
+
+
+@dataclass(slots=True)
+class MultipleDetector:
+    """Several eigenvalues of a conservative problem that pass zero together: bracketed, not solved for."""
+
+    system: System
+    settings: Settings
+
+    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether two or more eigenvalues of K change sign while the curve goes straight on."""
+        a, b = spectrum_of(old), spectrum_of(new)
+        if not (a.conservative and b.conservative) or old.tangent[self.system.n] * new.tangent[self.system.n] <= 0:
+            return False
+        return abs(a.n_unstable - b.n_unstable) > 1
+
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+        """Return the bracketed point; none where branch points were found one by one."""
+        if sum(e.kind == "BP" for e in found) > 1:
+            return []
+        before, count = spectrum_of(old).n_unstable, spectrum_of(new).n_unstable - spectrum_of(old).n_unstable
+        while new.s - old.s > _BRACKET:
+            middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
+            if isinstance(middle, str):
+                break
+            old, new = (middle, new) if spectrum_of(middle).n_unstable == before else (old, middle)
+        note = f"{abs(count)} eigenvalues of K vanish together: a point of higher multiplicity, bracketed only"
+        return [Located("BP", new, new.s - old.s, False, {"type": "multiple"}, note)]
 
 
 def critical_pairs(s: Spectrum) -> list[tuple[float, float]]:
@@ -241,18 +293,27 @@ def critical_pairs(s: Spectrum) -> list[tuple[float, float]]:
     return pairs
 
 
-def critical_square(s: Spectrum) -> float | None:
-    """Return the product of the pair whose sum is nearest zero, relative to its size: omega^2 of a Hopf point."""
+def critical_pair(s: Spectrum) -> tuple[float, float] | None:
+    """Return (sum, product) of the pair whose sum is nearest zero, relative to its size."""
     pairs = critical_pairs(s)
-    if not pairs:
-        return None
-    return min(pairs, key=lambda p: abs(p[0]) / max(abs(p[1]) ** 0.5, 1e-12))[1]
+    return min(pairs, key=lambda p: abs(p[0]) / max(abs(p[1]) ** 0.5, 1e-12)) if pairs else None
+
+
+def _frequency(pair: tuple[float, float]) -> float:
+    """Return the imaginary part of a complex pair given by sum and product, zero for a real one."""
+    return float(np.sqrt(max(pair[1] - 0.25 * pair[0] ** 2, 0.0)))
+
+
+def critical_square(s: Spectrum) -> float | None:
+    """Return the product of the critical pair: omega^2 of a Hopf point."""
+    pair = critical_pair(s)
+    return None if pair is None else pair[1]
 
 
 def critical_sum(s: Spectrum) -> float:
-    """Return the sum of the pair nearest zero."""
-    pairs = critical_pairs(s)
-    return min(pairs, key=lambda p: abs(p[0]) / max(abs(p[1]) ** 0.5, 1e-12))[0] if pairs else 0.0
+    """Return the sum of the critical pair."""
+    pair = critical_pair(s)
+    return 0.0 if pair is None else pair[0]
 
 
 def zero_detector(

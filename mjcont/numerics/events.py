@@ -107,7 +107,7 @@ def within(system: System, old: CurvePoint, new: CurvePoint, c: Corrected) -> fl
     aside = float(np.linalg.norm(step - along * chord / size))
     slack = _OUTSIDE * length + 1e-9 + 10.0 * min(c.step, 1e-6)
     if -slack <= along <= size + slack and aside <= 0.3 * length + 1e-9:
-        return old.s + min(max(along, 0.0), size)
+        return old.s + min(max(along / size, 0.0), 1.0) * length
     return None
 
 

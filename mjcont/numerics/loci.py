@@ -80,24 +80,20 @@ def fold_locus_detectors(system: System, fold: Fold, settings: Settings) -> list
     return found
 
 
-def _without_zero(s: Spectrum) -> Array:
-    """Return the eigenvalues without the one nearest zero."""
-    ev = s.eigenvalues
-    return np.delete(ev, np.argmin(np.abs(ev))) if len(ev) else ev
-
-
 def _zero_hopf_count(s: Spectrum) -> int:
-    ev = _without_zero(s)
+    """Return the number of unstable complex pairs."""
+    ev = s.eigenvalues
     return int(np.count_nonzero((ev.imag > 0) & (ev.real > s.noise)))
 
 
 def _double_hopf_count(s: Spectrum) -> int:
     """Return the number of unstable complex pairs apart from the critical one."""
-    ev = s.eigenvalues[s.eigenvalues.imag > 0]
+    upper = s.eigenvalues.imag > 0
+    ev, noise = s.eigenvalues[upper], s.noise[upper]
     if not len(ev):
         return 0
-    rest = np.delete(ev, np.argmin(np.abs(ev.real) / np.abs(ev)))
-    return int(np.count_nonzero(rest.real > s.noise))
+    own = np.argmin(np.abs(ev.real) / np.abs(ev))
+    return int(np.count_nonzero(np.delete(ev.real > noise, own)))
 
 
 def _pair_detector(kind: str, system: System, settings: Settings, count: Callable[[Spectrum], int]) -> ZeroDetector:

@@ -99,7 +99,8 @@ def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None,
         ratio = size / last if np.isfinite(last) else 0.0
         x, y = system.move(x, y, step)
         local = system.local(x, y)
-        if size <= settings.tol or (size <= 100.0 * settings.tol and size * ratio <= 0.1 * settings.tol):
+        contracting = ratio > 0.0 and size <= 100.0 * settings.tol and size * ratio <= 0.1 * settings.tol
+        if size <= settings.tol or contracting:
             failure = ""
             break
         if ratio > _SLOW and size <= _NOISE and iterations > 2:  # as close as the noise of f allows
@@ -117,7 +118,12 @@ def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None,
     factored = Factored(with_row(jac, row))
     step, _ = _newton_step(system, local, y, factored, row)
     x, y = system.move(x, y, step)
-    size, error = float(np.linalg.norm(step)), system.error(local, x, y)
+    size = float(np.linalg.norm(step))
+    if size > settings.tol:  # derivatives are to be those of the point itself
+        local = system.local(x, y)
+        jac = system.jacobian(local, y)
+        factored = Factored(with_row(jac, row))
+    error = system.error(local, x, y)
     if not error < _LARGEST_ERROR:
         failure = "the corrector stalled away from the curve"
     return Corrected(x, y, local, factored, iterations, ratio, size, error, failure, jac)

@@ -74,11 +74,17 @@ class Problem(Protocol):
         """Return f at x moved by each row of `steps` (m, n), shape (m, n)."""
         ...
 
-    def linearize(self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False) -> Linearization:
-        """Return f, df/dx and df/dp; `accurate` asks for the error that locating special points needs."""
+    def linearize(
+        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
+    ) -> Linearization:
+        """Return f, df/dx and df/dp; `accurate` asks for the error that locating special points needs.
+
+        `spans` are the widths of the ranges in which the parameters `wrt` move, for difference steps where a value
+        is near zero.
+        """
         ...
 
-    def parameter_stencil(self, name: str, value: float) -> tuple[Any, float]:
+    def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Any, float]:
         """Return the difference rule (see `differences.Stencil`) and step for derivatives in a parameter."""
         ...
 

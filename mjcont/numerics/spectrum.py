@@ -23,7 +23,7 @@ STABLE, UNSTABLE, MARGINAL = "stable", "unstable", "marginal"
 _SYMMETRY_NOISE = 1e-8
 _DIFFERENCE_NOISE = 1e-10
 _ROUNDING = 1e-13
-_EIGENSOLVER = 1e-14
+_EIGENSOLVER = 1e-15
 _RIGID = 1e-7
 
 
@@ -36,14 +36,14 @@ class Spectrum:
     eigenvalues : (N,) complex, in 1/s, by falling real part (for large sparse problems those nearest zero).
     stability : "stable", "unstable" or "marginal".
     n_unstable : number of eigenvalues with positive real part beyond the noise.
-    noise : how far from the axis an eigenvalue must be to be told from it.
+    noise : (N,) how far from the axis each eigenvalue must be to be told from it.
     conservative : whether symmetric K and C exclude Hopf points.
     """
 
     eigenvalues: Array
     stability: str
     n_unstable: int
-    noise: float
+    noise: Array
     conservative: bool
 
     def pair_count(self) -> int:
@@ -134,10 +134,11 @@ def _conservative(mass: Array, damping: Array, stiffness: Array) -> Spectrum:
     noise = _DIFFERENCE_NOISE * np.abs(stiffness).max() / np.diag(mass).max()
     negative = int(np.count_nonzero(squares < -noise))
     rounding = _ROUNDING * float(np.abs(ev).max(initial=0.0))
+    margin = np.full(len(ev), rounding)
     if negative:
-        return Spectrum(ev, UNSTABLE, negative, rounding, True)
+        return Spectrum(ev, UNSTABLE, negative, margin, True)
     touching = np.any(np.abs(squares) <= noise) or np.any(np.abs(ev.real) <= rounding)
-    return Spectrum(ev, MARGINAL if touching else STABLE, 0, rounding, True)
+    return Spectrum(ev, MARGINAL if touching else STABLE, 0, margin, True)
 
 
 def _sorted(ev: Array) -> Array:
@@ -152,8 +153,7 @@ def _classify(ev: Array, noise: Array, *, conservative: bool) -> Spectrum:
         state = UNSTABLE
     else:
         state = MARGINAL if np.any(np.abs(ev.real) <= noise) else STABLE
-    margin = float(noise[np.argmin(np.abs(ev.real) - noise)]) if len(ev) else 0.0
-    return Spectrum(ev, state, unstable, margin, conservative)
+    return Spectrum(ev, state, unstable, noise, conservative)
 
 
 def _sparse_spectrum(stiffness: Any) -> Spectrum:

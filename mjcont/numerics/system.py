@@ -66,10 +66,19 @@ class Free:
 class Local:
     """What is known of the problem at one (x, p): computed on demand, once."""
 
-    __slots__ = ("_lin", "_pencil", "_residual", "accurate", "problem", "values", "wrt", "x")
+    __slots__ = ("_lin", "_pencil", "_residual", "accurate", "problem", "spans", "values", "wrt", "x")
 
-    def __init__(self, problem: Problem, x: Array, values: Values, wrt: Sequence[str], accurate: bool) -> None:
+    def __init__(
+        self,
+        problem: Problem,
+        x: Array,
+        values: Values,
+        wrt: Sequence[str],
+        accurate: bool,
+        spans: Sequence[float] = (),
+    ) -> None:
         self.problem, self.x, self.values, self.wrt, self.accurate = problem, x, values, wrt, accurate
+        self.spans = spans
         self._lin: Any = None
         self._pencil: Pencil | None = None
         self._residual: Array | None = None
@@ -85,7 +94,9 @@ class Local:
 
     def _linearize(self) -> Any:
         if self._lin is None:
-            self._lin = self.problem.linearize(self.x, self.values, self.wrt, accurate=self.accurate)
+            self._lin = self.problem.linearize(
+                self.x, self.values, self.wrt, accurate=self.accurate, spans=self.spans
+            )
         return self._lin
 
     @property
@@ -172,6 +183,7 @@ class System:
         self.problem, self.base, self.free = problem, dict(base), tuple(free)
         self.conditions, self.accurate = tuple(conditions), accurate
         self.names = tuple(p.name for p in self.free)
+        self.spans = tuple(p.high - p.low for p in self.free)
         self.n = problem.n
         self.k = len(self.free) + sum(len(c.aux) for c in self.conditions)
         self.equations = self.n + sum(c.count for c in self.conditions)
@@ -190,7 +202,7 @@ class System:
 
     def local(self, x: Array, y: Array) -> Local:
         """Return the evaluation at (x, y)."""
-        return Local(self.problem, x, self.values(y), self.names, self.accurate)
+        return Local(self.problem, x, self.values(y), self.names, self.accurate, self.spans)
 
     def _aux(self, y: Array) -> list[Array]:
         parts, at = [], len(self.free)
@@ -237,16 +249,16 @@ class System:
 
     def _difference_rows(self, rows: Array, rest: Sequence[Any], local: Local, y: Array) -> None:
         """Fill the rows of conditions without a gradient by centred differences: good enough for Newton's matrix."""
-        h = _GRADIENT_STEP
 
         def conditions_at(step: Array) -> Array:
             x, y1 = self.move(local.x, y, step)
-            moved = Local(self.problem, x, self.values(y1), self.names, self.accurate)
+            moved = self.local(x, y1)
             parts = self._aux(y1)
             return np.concatenate([c.value(moved, parts[self.conditions.index(c)]) for _, c, _ in rest])
 
         gradient = np.empty((sum(c.count for _, c, _ in rest), self.n + self.k))
         for j in range(self.n + self.k):
+            h = self._gradient_step(j - self.n, y)
             step = np.zeros(self.n + self.k)
             step[j] = h
             gradient[:, j] = (conditions_at(step) - conditions_at(-step)) / (2.0 * h)
@@ -255,9 +267,25 @@ class System:
             rows[at : at + c.count] = gradient[done : done + c.count]
             done += c.count
 
+    def _gradient_step(self, i: int, y: Array) -> float:
+        """Return the difference step for y[i]: smaller where a parameter is small in its range; i < 0 for the state."""
+        if not 0 <= i < len(self.free):
+            return _GRADIENT_STEP
+        p, u = self.free[i], float(y[i])
+        _, h = self.problem.parameter_stencil(p.name, p.value(u), p.high - p.low)
+        return float(min(_GRADIENT_STEP, max(abs(h / p.slope(u)), 1e-7)))
+
     def move(self, x: Array, y: Array, step: Array) -> tuple[Array, Array]:
         """Return (x, y) moved by a scaled step (n + k,)."""
         return self.problem.retract(x, step[: self.n] * self.problem.state_scale), y + step[self.n :]
+
+    def admissible(self, x: Array, step: Array) -> Array:
+        """Return a scaled step without motions that the problem holds (see `rigid`)."""
+        problem: Any = self.problem
+        if not hasattr(problem, "admissible"):
+            return step
+        scale = problem.state_scale
+        return np.concatenate([problem.admissible(x, step[: self.n] * scale) / scale, step[self.n :]])
 
     def difference(self, x1: Array, y1: Array, x0: Array, y0: Array) -> Array:
         """Return the scaled step from (x0, y0) to (x1, y1), (n + k,)."""

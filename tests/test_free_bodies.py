@@ -1,0 +1,670 @@
+"""Bodies on free and ball joints, where a state has more coordinates than degrees of freedom.
+
+The tethered float against its equations written by hand: with r the centre of gravity, R the rotation, s_i and a_i the
+corners and anchors, d_i = r + R s_i - a_i, L_i = |d_i| and loads F_j (dead: fixed to the ground) at s_j,
+
+    V = sum k max(0, L_i - l_0)^2 / 2 + m g r_z - sum F_j . (r + R s_j)
+    force  f = -sum T_i d_i / L_i + sum F_j - m g e_z,     T_i = k max(0, L_i - l_0)
+    moment t = sum s x R'F over all forces, in the body's frame,
+
+and a tangent step is (dr, w): r + dr, R exp(w), as for a free joint of MuJoCo.
+
+A body free in space is the same mechanism as one held to the ground, with six motions that no force opposes.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from scipy import optimize
+from scipy.spatial.transform import Rotation
+
+import mjcont as mc
+
+CORNERS = np.array([[0.5, 0.3, -0.5], [-0.5, 0.3, -0.5], [-0.5, -0.3, -0.5], [0.5, -0.3, -0.5]])
+ANCHORS = CORNERS * [1.0, 1.0, 0.0]
+HULL = np.array([0.1, 0.05, -0.3])
+VALUES = {"B": 200.0, "F_x": 0.0, "F_y": 0.0, "k": 50.0, "l_0": 2.0, "m": 10.0, "h_B": -0.3}
+GRAVITY = 9.81
+
+
+def rotation(state):
+    """Rotation of a free joint's state x y z w i j k."""
+    return Rotation.from_quat(np.roll(state[3:7], -1))
+
+
+def cross(v):
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+def pulls(r, turn, p):
+    """Vectors from anchor to corner, their lengths and tensions."""
+    d = r + CORNERS @ turn.T - ANCHORS
+    lengths = np.linalg.norm(d, axis=1)
+    return d, lengths, p["k"] * np.maximum(0.0, lengths - p["l_0"])
+
+
+def loads(p):
+    """Dead loads and the points of the body on which they act."""
+    yield np.array([0.0, 0.0, -p["m"] * GRAVITY]), np.zeros(3)
+    yield np.array([0.0, 0.0, p["B"]]), np.array([0.0, 0.0, p["h_B"]])
+    yield np.array([p["F_x"], p["F_y"], 0.0]), HULL
+
+
+def energy(r, turn, p):
+    stretch = np.maximum(0.0, pulls(r, turn, p)[1] - p["l_0"])
+    return 0.5 * p["k"] * np.sum(stretch**2) - sum(f @ (r + turn @ s) for f, s in loads(p))
+
+
+def forces(r, turn, p):
+    """Force (ground) and moment (body frame), (6,)."""
+    d, lengths, tension = pulls(r, turn, p)
+    acting = [(-t * e / n, s) for t, e, n, s in zip(tension, d, lengths, CORNERS, strict=True)] + list(loads(p))
+    return np.concatenate([sum(f for f, _ in acting), sum(np.cross(s, turn.T @ f) for f, s in acting)])
+
+
+def stiffness(r, turn, p):
+    """-d forces / d (dr, w), (6, 6), equilibrium or not."""
+    total = np.zeros((6, 6))
+    for f, s in loads(p):
+        total[3:, 3:] -= cross(s) @ cross(turn.T @ f)
+    for e, n, t, s in zip(*pulls(r, turn, p), CORNERS, strict=True):
+        u = e / n
+        spring = (p["k"] if t > 0 else 0.0) * np.outer(u, u) + t / n * (np.eye(3) - np.outer(u, u))
+        moved = np.hstack([np.eye(3), -turn @ cross(s)])  # of the corner
+        total[:3] += spring @ moved
+        total[3:] += cross(s) @ turn.T @ spring @ moved
+        total[3:, 3:] += cross(s) @ cross(turn.T @ (t * u))
+    return total
+
+
+def right_jacobian(v):
+    """J with exp(v + dv) = exp(v) exp(J dv) to first order."""
+    angle, x = np.linalg.norm(v), cross(v)
+    if angle < 1e-8:
+        return np.eye(3) - 0.5 * x
+    return np.eye(3) - (1 - math.cos(angle)) / angle**2 * x + (angle - math.sin(angle)) / angle**3 * x @ x
+
+
+def least_energy(p, r, turn):
+    """Position and rotation of least energy near a start, by BFGS in position and rotation vector."""
+
+    def split(u):
+        return u[:3], Rotation.from_rotvec(u[3:]).as_matrix()
+
+    def gradient(u):
+        f = forces(*split(u), p)
+        return -np.concatenate([f[:3], right_jacobian(u[3:]).T @ f[3:]])
+
+    start = np.concatenate([r, Rotation.from_matrix(turn).as_rotvec()])
+    found = optimize.minimize(lambda u: energy(*split(u), p), start, jac=gradient, method="BFGS", tol=1e-9)
+    return split(optimize.root(gradient, found.x, tol=1e-14).x)
+
+
+@pytest.fixture(scope="module")
+def tethered():
+    return mc.Mechanism.from_xml("tethered_body")
+
+
+@pytest.fixture(scope="module")
+def upright(tethered):
+    return mc.continue_equilibria(tethered, "B", bounds=(105.0, 400.0), start={"B": 200.0}, keyframe="upright")
+
+
+@pytest.fixture(scope="module")
+def loaded(tethered):
+    start = {"B": 200.0, "F_x": 10.0, "F_y": 2.0}
+    return mc.continue_equilibria(tethered, "B", bounds=(105.0, 400.0), start=start, keyframe="upright")
+
+
+def random_poses(count):
+    rng = np.random.default_rng(11)
+    for turn in Rotation.random(count, rng=rng):
+        quat = np.roll(turn.as_quat(), 1)
+        yield np.concatenate([rng.uniform([-1, -1, 2], [1, 1, 4]), quat]), turn.as_matrix()
+
+
+# -- the float's equations -------------------------------------------------------------------------------------
+
+
+LOADED = {**VALUES, "B": 180.0, "F_x": 12.0, "F_y": -7.0}
+
+
+def test_the_hand_written_forces_are_the_gradient_of_the_hand_written_energy():
+    for x, turn in random_poses(3):
+        for i, e in enumerate(np.eye(6)):
+            h = 1e-6 * e
+            ends = [
+                energy(x[:3] + sign * h[:3], turn @ Rotation.from_rotvec(sign * h[3:]).as_matrix(), LOADED)
+                for sign in (1, -1)
+            ]
+            assert -(ends[0] - ends[1]) / 2e-6 == pytest.approx(forces(x[:3], turn, LOADED)[i], rel=1e-6, abs=1e-6)
+
+
+def test_forces_on_the_float_are_those_written_by_hand(tethered):
+    for x, turn in random_poses(10):
+        residual = tethered.residual(x, tethered.values(LOADED))
+        assert residual == pytest.approx(forces(x[:3], turn, LOADED), rel=1e-12, abs=1e-11)
+
+
+@pytest.mark.parametrize("accurate", [False, True])
+def test_derivatives_on_the_manifold_are_those_written_by_hand(tethered, accurate):
+    for x, turn in random_poses(10):
+        jac = tethered.linearize(x, tethered.values(LOADED), ["B"], accurate=accurate).jac
+        assert jac == pytest.approx(-stiffness(x[:3], turn, LOADED), abs=1e-6 if not accurate else 1e-8)
+
+
+def test_the_derivative_in_a_load_is_the_load_and_its_moment(tethered):
+    for x, turn in random_poses(3):
+        par = tethered.linearize(x, tethered.values(LOADED), ["F_x", "l_0"]).par
+        e = np.array([1.0, 0.0, 0.0])
+        assert par[:, 0] == pytest.approx(np.concatenate([e, np.cross(HULL, turn.T @ e)]), abs=1e-10)
+        ends = [forces(x[:3], turn, {**LOADED, "l_0": 2.0 + h}) for h in (1e-6, -1e-6)]
+        assert par[:, 1] == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-5)
+
+
+def test_mass_and_damping_of_the_float_are_those_of_the_xml(tethered):
+    (x, _), *_ = random_poses(1)
+    values = tethered.values(VALUES)
+    pencil = tethered.pencil(x, values, tethered.linearize(x, values, []).jac)
+    assert pencil.mass == pytest.approx(np.diag([10.0, 10.0, 10.0, 1.2, 1.6, 1.4]), abs=1e-12)
+    assert pencil.damping == pytest.approx(5.0 * np.eye(6), abs=1e-9)
+
+
+def test_a_tangent_step_and_the_difference_of_states_are_inverse_to_each_other(tethered):
+    rng = np.random.default_rng(5)
+    for x, turn in random_poses(5):
+        step = rng.uniform(-1.0, 1.0, 6)
+        moved = tethered.retract(x, step)
+        assert tethered.difference(moved, x) == pytest.approx(step, abs=1e-12)
+        assert moved[:3] == pytest.approx(x[:3] + step[:3], abs=1e-15)
+        expected = turn @ Rotation.from_rotvec(step[3:]).as_matrix()
+        assert rotation(moved).as_matrix() == pytest.approx(expected, abs=1e-14)
+
+
+# -- the float upright -----------------------------------------------------------------------------------------
+
+
+def capsize_load():
+    """Zero of the stiffness in roll, 4 k q^2 + (B - m g) c + B h_B with q = 0.3 m, c = 0.5 m."""
+    return (10.0 * GRAVITY * 0.5 - 4 * 50.0 * 0.3**2) / (0.5 - 0.3)
+
+
+def test_upright_the_tethers_carry_the_excess_of_buoyancy(upright):
+    assert upright["upright"] == pytest.approx(np.ones(len(upright)), abs=1e-12)
+    assert upright["z"] == pytest.approx(2.5 + (upright["B"] - 98.1) / 200.0, abs=1e-12)
+
+
+def test_the_upright_float_capsizes_in_roll_where_the_closed_form_has_it(upright):
+    (point,) = upright.special_points
+    assert point.kind == "BP"
+    assert point["B"] == pytest.approx(capsize_load(), rel=1e-11)
+    assert point.coefficients["type"] == "subcritical pitchfork"
+
+
+def test_above_that_buoyancy_the_float_is_stable_and_below_it_is_not(upright):
+    rows = np.array([not label for label in upright.labels])
+    expected = np.where(upright["B"] > capsize_load(), "stable", "unstable")
+    assert np.array_equal(upright.stability[rows], expected[rows])
+
+
+def test_the_capsized_branch_rolls_right_over_to_the_float_upside_down(upright):
+    (rolled,) = [b for b in mc.switch_branches(upright.point("BP1")) if b["upright"].min() < 0.9]
+    assert rolled.status == "closed"
+    assert rolled["upright"].min() == pytest.approx(-1.0, abs=1e-9)
+    for i in range(0, len(rolled), 10):
+        x, p = rolled.states[i], {**VALUES, "B": rolled["B"][i]}
+        assert np.abs(forces(x[:3], rotation(x).as_matrix(), p)).max() < 1e-6
+
+
+# -- the float under load --------------------------------------------------------------------------------------
+
+CURRENTS = [(200.0, 10.0, 2.0), (300.0, 0.0, 0.0), (180.0, -15.0, 5.0), (350.0, 40.0, -20.0)]
+
+
+@pytest.mark.parametrize(("b", "f_x", "f_y"), CURRENTS)
+def test_the_float_rests_where_its_energy_is_least(tethered, b, f_x, f_y):
+    load = {"B": b, "F_x": f_x, "F_y": f_y}
+    found = mc.find_equilibrium(tethered, load, keyframe="upright")
+    # from a pose nearby, not from the answer
+    turned = rotation(found.state) * Rotation.from_rotvec([0.05, -0.08, 0.06])
+    r, turn = least_energy({**VALUES, **load}, found.state[:3] + [0.05, 0.03, -0.04], turned.as_matrix())
+    assert found.stability == "stable"
+    assert found.state[:3] == pytest.approx(r, abs=1e-8)
+    assert rotation(found.state).as_matrix() == pytest.approx(turn, abs=1e-8)
+
+
+def test_a_branch_passes_through_the_poses_of_least_energy(loaded):
+    for b in (180.0, 220.0, 350.0):
+        p = {**VALUES, "B": b, "F_x": 10.0, "F_y": 2.0}
+        r, turn = least_energy(p, np.array([0.0, 0.0, 3.0]), np.eye(3))
+        distances = [np.abs(q.state[:3] - r).max() + np.abs(rotation(q.state).as_matrix() - turn).max()
+                     for q in loaded.at(B=b) if q.stability == "stable"]
+        assert min(distances) < 1e-8
+
+
+def test_every_point_of_a_branch_balances_the_hand_written_forces(loaded):
+    for x, b in zip(loaded.states, loaded["B"], strict=True):
+        p = {**VALUES, "B": b, "F_x": 10.0, "F_y": 2.0}
+        assert np.abs(forces(x[:3], rotation(x).as_matrix(), p)).max() < 1e-7
+
+
+def test_unstable_directions_are_the_negative_eigenvalues_of_the_hand_written_hessian(loaded):
+    for x, b, count, label in zip(loaded.states, loaded["B"], loaded.n_unstable, loaded.labels, strict=True):
+        p = {**VALUES, "B": b, "F_x": 10.0, "F_y": 2.0}
+        hessian = stiffness(x[:3], rotation(x).as_matrix(), p)
+        assert label or count == np.count_nonzero(np.linalg.eigvalsh(0.5 * (hessian + hessian.T)) < 0)
+
+
+def test_at_equilibrium_the_stiffness_is_symmetric_and_elsewhere_it_is_not(tethered, loaded):
+    for i in range(0, len(loaded), 20):
+        jac = tethered.linearize(loaded.states[i], loaded.row(i).parameters, []).jac
+        assert np.abs(jac - jac.T).max() < 1e-8 * np.abs(jac).max()
+    away = tethered.retract(loaded.states[0], 0.3 * np.ones(6))
+    jac = tethered.linearize(away, loaded.row(0).parameters, []).jac
+    assert np.abs(jac - jac.T).max() > 1e-2 * np.abs(jac).max()
+
+
+def test_quaternions_have_unit_length_along_a_branch(loaded):
+    assert np.linalg.norm(loaded.states[:, 3:], axis=1) == pytest.approx(np.ones(len(loaded)), abs=1e-14)
+
+
+def test_the_current_turns_the_branch_point_into_folds(loaded):
+    assert [p.kind for p in loaded.special_points] == ["LP", "LP"]
+    words = [s for s, label in zip(loaded.stability, loaded.labels, strict=True) if not label]
+    assert [word for word, _ in itertools.groupby(words)] == ["stable", "unstable", "stable"]
+
+
+def test_at_a_fold_the_hand_written_stiffness_is_singular_along_its_null_vector(loaded):
+    for fold in loaded.of_kind("LP"):
+        p = {**VALUES, "B": fold["B"], "F_x": 10.0, "F_y": 2.0}
+        hessian = stiffness(fold.state[:3], rotation(fold.state).as_matrix(), p)
+        assert np.linalg.norm(hessian @ fold.vectors["v"]) < 1e-8 * np.abs(hessian).max()
+
+
+def test_folds_of_the_float_lie_where_the_hand_written_equations_have_them(loaded):
+    # forces, stiffness times v and |v| = 1, in position, rotation vector, B and v
+    def defining(u):
+        p = {**VALUES, "B": u[6], "F_x": 10.0, "F_y": 2.0}
+        pose = u[:3], Rotation.from_rotvec(u[3:6]).as_matrix()
+        return np.concatenate([forces(*pose, p), stiffness(*pose, p) @ u[7:], [u[7:] @ u[7:] - 1.0]])
+
+    for fold in loaded.of_kind("LP"):
+        start = np.concatenate([fold.state[:3], rotation(fold.state).as_rotvec(), [fold["B"]], fold.vectors["v"]])
+        found = optimize.root(defining, start + 1e-3, tol=1e-13)
+        assert fold["B"] == pytest.approx(found.x[6], rel=1e-9)
+
+
+def test_folds_under_a_side_current_meet_in_a_cusp_where_the_upright_float_capsizes(tethered):
+    start = {"B": 200.0, "F_y": 1.0}
+    branch = mc.continue_equilibria(tethered, "B", bounds=(105.0, 400.0), start=start, keyframe="upright")
+    fold = min(branch.of_kind("LP"), key=lambda p: abs(p["B"] - capsize_load()))
+    locus = mc.continue_special(fold, "F_y", bounds=(-3.0, 3.0))
+    cusp = min(locus.of_kind("CP"), key=lambda p: abs(p["F_y"]))
+    assert cusp["F_y"] == pytest.approx(0.0, abs=1e-8)
+    assert cusp["B"] == pytest.approx(capsize_load(), rel=1e-8)
+
+
+@pytest.fixture(scope="module")
+def slackening():
+    """The float at B = 350 N while its first tether is paid out."""
+    tethered = mc.Mechanism.from_xml("tethered_body")
+    tethered.declare("l_1", "tendon:tether_1.springlength[1]", unit="m", bounds=(1.5, 6.0))
+    return mc.continue_equilibria(tethered, "l_1", start={"B": 350.0}, keyframe="upright")
+
+
+def balance_without_tether_1(u, p):
+    """Forces on the float by its other three tethers, (6,), at a position and rotation vector."""
+    r, turn = u[:3], Rotation.from_rotvec(u[3:]).as_matrix()
+    d, lengths, tension = pulls(r, turn, p)
+    pull = -tension[0] * d[0] / lengths[0]
+    return forces(r, turn, p) - np.concatenate([pull, np.cross(CORNERS[0], turn.T @ pull)])
+
+
+def test_paid_out_a_tether_falls_slack_where_the_other_three_hold_the_float_alone(slackening):
+    # the stiffness jumps there: the branch ends with a sentence
+    x, p = slackening.states[-1], {**VALUES, "B": 350.0}
+    start = np.concatenate([x[:3], rotation(x).as_rotvec()]) + 1e-2
+    alone = optimize.root(balance_without_tether_1, start, args=(p,), tol=1e-13).x
+    length = pulls(alone[:3], Rotation.from_rotvec(alone[3:]).as_matrix(), p)[1][0]
+    assert slackening["l_1"][-1] == pytest.approx(length, abs=1e-3)
+    assert slackening["length_1"][-1] == pytest.approx(slackening["l_1"][-1], abs=1e-3)
+    assert slackening.status == "step too small"
+    assert f"step below ds_min at l_1 = {slackening['l_1'][-1]:.6g}" in slackening.message
+
+
+def test_beyond_that_the_float_hangs_on_three_tethers_and_is_stable(slackening):
+    start = {**slackening.row(0).parameters, "l_1": 5.0}
+    found = mc.find_equilibrium(slackening.problem, start, state=slackening.states[-1])
+    assert found["length_1"] < 5.0
+    assert found.stability == "stable"
+    u = np.concatenate([found.state[:3], rotation(found.state).as_rotvec()])
+    assert np.abs(balance_without_tether_1(u, {**VALUES, "B": 350.0})).max() < 1e-8
+
+
+# -- files -----------------------------------------------------------------------------------------------------
+
+
+def test_a_branch_of_a_free_body_is_the_same_after_saving_and_loading(loaded, tmp_path):
+    again = mc.load(loaded.save(tmp_path / "float.h5"))
+    assert np.array_equal(again.states, loaded.states)
+    assert list(again.state_labels) == list(loaded.state_labels)
+    assert [p.label for p in again.special_points] == [p.label for p in loaded.special_points]
+    for a, b in zip(again.at(B=220.0), loaded.at(B=220.0), strict=True):
+        assert a.state == pytest.approx(b.state, abs=1e-12)
+        assert a.stability == b.stability
+
+
+def test_a_fold_of_a_free_body_can_be_followed_from_a_file(loaded, tmp_path):
+    again = mc.load(loaded.save(tmp_path / "float.h5"))
+    locus = mc.continue_special(again.point("LP1"), "F_x", bounds=(9.0, 11.0))
+    assert locus["F_x"][[0, -1]] == pytest.approx([9.0, 11.0])
+
+
+# -- ball joints -----------------------------------------------------------------------------------------------
+
+
+def ball_chain(*, guide=0.0, gravity=0.0):
+    """Two rods of unit length on ball joints with springs (2 at the clamp, 1 above), dead loads P, H at the tip.
+
+    `guide` is the stiffness of springs across, along y, at the joint between the rods and at the tip.
+    """
+    return f"""
+    <mujoco model="ball_chain">
+      <option gravity="0 0 {-gravity}"/>
+      <statistic extent="2"/>
+      <default><joint damping="0.1"/></default>
+      <worldbody>
+        <site name="ground"/>
+        <body name="lower">
+          <joint name="clamp" type="ball" stiffness="2"/>
+          <inertial pos="0 0 1" mass="0.1" diaginertia="0.01 0.01 0.01"/>
+          <body name="upper" pos="0 0 1">
+            <joint name="middle" type="ball" stiffness="1"/>
+            <inertial pos="0 0 1" mass="0.1" diaginertia="0.01 0.01 0.01"/>
+            <site name="middle"/>
+            <site name="tip" pos="0 0 1"/>
+          </body>
+        </body>
+      </worldbody>
+      <actuator>
+        <general name="P" site="tip" refsite="ground" gear="0 0 -1 0 0 0"/>
+        <general name="H" site="tip" refsite="ground" gear="1 0.5 0 0 0 0"/>
+        <general name="bush_tip" site="tip" refsite="ground" gear="0 1 0 0 0 0"
+                 gainprm="0" biastype="affine" biasprm="0 {-guide} 0"/>
+        <general name="bush_middle" site="middle" refsite="ground" gear="0 1 0 0 0 0"
+                 gainprm="0" biastype="affine" biasprm="0 {-guide} 0"/>
+      </actuator>
+      <sensor><framepos name="tip" objtype="site" objname="tip"/></sensor>
+    </mujoco>"""
+
+
+# smallest root of 3 - 4 p + p^2 - 1 = 0: springs 2 and 1 between links at absolute angles
+BALL_BUCKLING = 2.0 - math.sqrt(2.0)
+
+
+def chain_angles(ratio, guess):
+    """Absolute angles of two links: 3 t1 - t2 = P sin(t1), t2 - t1 = P sin(t2)."""
+    found = optimize.root(
+        lambda t: [3 * t[0] - t[1] - ratio * np.sin(t[0]), t[1] - t[0] - ratio * np.sin(t[1])], guess, tol=1e-14
+    )
+    return found.x
+
+
+@pytest.fixture(scope="module")
+def guided():
+    return mc.Mechanism.from_xml(ball_chain(guide=5.0))
+
+
+def test_the_derivative_of_a_ball_spring_is_the_inverse_jacobian_of_its_rotation_vector():
+    xml = """
+    <mujoco model="ball">
+      <option gravity="0 0 0"/>
+      <worldbody><body name="top"><joint name="top" type="ball" stiffness="3"/>
+      <inertial pos="0 0 0" mass="1" diaginertia="1 2 2.5"/></body></worldbody>
+    </mujoco>"""
+    mechanism = mc.Mechanism.from_xml(xml)
+    for v in ([0.3, -0.2, 0.5], [1.0, 1.0, -0.8]):
+        state = np.roll(Rotation.from_rotvec(v).as_quat(), 1)
+        lin = mechanism.linearize(state, mechanism.values(), [], accurate=True)
+        assert lin.f == pytest.approx(-3.0 * np.array(v), abs=1e-13)
+        assert lin.jac == pytest.approx(-3.0 * np.linalg.inv(right_jacobian(np.array(v))), abs=1e-9)
+
+
+def test_a_chain_on_ball_joints_buckles_at_the_load_of_the_chain_on_hinges(guided):
+    branch = mc.continue_equilibria(guided, "P", bounds=(0.0, 1.0))
+    (point,) = branch.special_points
+    assert point.coefficients["type"] == "supercritical pitchfork"
+    assert point["P"] == pytest.approx(BALL_BUCKLING, rel=1e-10)
+
+
+def test_the_buckling_of_a_chain_free_to_lean_either_way_is_reported():
+    # without guides the chain buckles in every direction at once: two eigenvalues of K are zero
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml(ball_chain()), "P", bounds=(0.0, 1.0))
+    assert set(branch.n_unstable) == {0, 2}
+    assert any(p["P"] == pytest.approx(BALL_BUCKLING, rel=1e-6) for p in branch.special_points)
+
+
+def test_the_buckled_chain_on_ball_joints_has_the_angles_of_the_one_on_hinges(guided):
+    branch = mc.continue_equilibria(guided, "P", bounds=(0.0, 1.5))
+    (buckled,) = [b for b in mc.switch_branches(branch.point("BP1")) if np.abs(b["tip[0]"]).max() > 0.1]
+    for p in buckled.at(P=1.2):
+        lower = Rotation.from_quat(np.roll(p.state[:4], -1)).as_rotvec()
+        upper = Rotation.from_quat(np.roll(p.state[4:], -1)).as_rotvec()
+        assert [*lower[[0, 2]], *upper[[0, 2]]] == pytest.approx([0.0] * 4, abs=1e-9)
+        angles = np.array([lower[1], lower[1] + upper[1]])
+        assert angles == pytest.approx(chain_angles(1.2, angles * 1.02), abs=1e-9)
+    assert np.linalg.norm(buckled.states[:, :4], axis=1) == pytest.approx(np.ones(len(buckled)), abs=1e-14)
+
+
+def test_a_chain_on_ball_joints_hangs_where_its_energy_is_least():
+    mechanism = mc.Mechanism.from_xml(ball_chain(guide=0.5, gravity=9.81))
+    branch = mc.continue_equilibria(mechanism, "H", bounds=(0.0, 3.0), start={"P": -1.0})
+
+    def chain_energy(u, h):
+        one, two = Rotation.from_rotvec(u[:3]), Rotation.from_rotvec(u[3:])
+        elbow = one.apply([0.0, 0.0, 1.0])
+        tip = elbow + (one * two).apply([0.0, 0.0, 1.0])
+        springs = 1.0 * u[:3] @ u[:3] + 0.5 * u[3:] @ u[3:] + 0.25 * (elbow[1] ** 2 + tip[1] ** 2)
+        return springs + 0.1 * 9.81 * (elbow[2] + tip[2]) - h * (tip[0] + 0.5 * tip[1]) - 1.0 * tip[2]
+
+    for h in (0.5, 1.5, 3.0):
+        (p,) = branch.at(H=h)
+        assert p.stability == "stable"
+        found = optimize.minimize(chain_energy, np.full(6, 0.1), args=(h,), method="BFGS", tol=1e-8)
+        vectors = [Rotation.from_quat(np.roll(q, -1)).as_rotvec() for q in (p.state[:4], p.state[4:])]
+        assert np.concatenate(vectors) == pytest.approx(found.x, abs=1e-5)
+
+
+# -- free in space ---------------------------------------------------------------------------------------------
+
+RIGID_MODES = [f"{kind} {axis}" for kind in ("translation along", "rotation about") for axis in "xyz"]
+
+
+def truss(joint):
+    """The truss of von Mises (a = 1, L0 = 1.25, k = 1000) on a base with or without a joint to the ground."""
+    return f"""
+    <mujoco model="truss">
+      <option gravity="0 0 0"/>
+      <statistic extent="1"/>
+      <worldbody>
+        <body name="base">
+          {joint}
+          <inertial pos="0 0 0" mass="3" diaginertia="1 2 2.5"/>
+          <site name="left" pos="-1 0 0"/>
+          <site name="right" pos="1 0 0"/>
+          <body name="apex" pos="0 0 0.75">
+            <joint name="x" type="slide" axis="1 0 0" damping="5"/>
+            <joint name="z" type="slide" axis="0 0 1" damping="5" ref="0.75"/>
+            <inertial pos="0 0 0" mass="1" diaginertia="0.1 0.1 0.1"/>
+            <site name="apex"/>
+          </body>
+        </body>
+      </worldbody>
+      <tendon>
+        <spatial name="bar_left" stiffness="1000" springlength="1.25"><site site="left"/><site site="apex"/></spatial>
+        <spatial name="bar_right" stiffness="1000" springlength="1.25"><site site="right"/><site site="apex"/></spatial>
+      </tendon>
+      <actuator><general name="P" joint="z" gear="-1"/></actuator>
+    </mujoco>"""
+
+
+def hexapod(joint):
+    """Two bodies joined by six springs of different stiffness, pressed together along a seventh line by P."""
+    low = np.radians([0, 110, 130, 235, 250, 355])
+    high = np.radians([40, 75, 160, 200, 285, 320])
+    lower = np.column_stack([np.cos(low), np.sin(low), np.zeros(6)])
+    upper = np.column_stack([0.6 * np.cos(high), 0.6 * np.sin(high), -0.05 * np.arange(6)])
+    rest = np.linalg.norm(upper + [0.0, 0.0, 0.5] - lower, axis=1)
+
+    def sites(name, points):
+        return "".join(f'<site name="{name}{i}" pos="{x} {y} {z}"/>' for i, (x, y, z) in enumerate(points))
+
+    legs = "".join(
+        f'<spatial name="leg_{i}" stiffness="{200 + 20 * i}" springlength="{rest[i]}" damping="3">'
+        f'<site site="lower{i}"/><site site="upper{i}"/></spatial>'
+        for i in range(6)
+    )
+    return f"""
+    <mujoco model="hexapod">
+      <option gravity="0 0 0"/>
+      <statistic extent="1"/>
+      <worldbody>
+        <body name="lower">
+          {joint}<inertial pos="0 0 0" mass="3" diaginertia="1 1.2 1.5"/>
+          <site name="eye" pos="0 0 -0.5"/>{sites("lower", lower)}
+        </body>
+        <body name="upper" pos="0 0 0.5">
+          <joint name="upper" type="free"/><inertial pos="0 0 0" mass="1" diaginertia="0.3 0.4 0.5"/>
+          <site name="load" pos="0.05 0.1 0"/>{sites("upper", upper)}
+        </body>
+      </worldbody>
+      <tendon>{legs}<spatial name="press"><site site="eye"/><site site="load"/></spatial></tendon>
+      <actuator><general name="P" tendon="press" gear="-1"/></actuator>
+      <sensor><framepos name="gap" objtype="body" objname="upper" reftype="body" refname="lower"/></sensor>
+    </mujoco>"""
+
+
+FREE = '<joint name="base" type="free"/>'
+MODELS = {"truss": (truss, 300.0), "hexapod": (hexapod, 20.0)}
+
+
+@pytest.fixture(scope="module", params=MODELS)
+def pair(request):
+    """A mechanism's branch in P held to the ground, and free in space."""
+    model, bound = MODELS[request.param]
+    return [
+        mc.continue_equilibria(mc.Mechanism.from_xml(model(joint)), "P", bounds=(-bound, bound)) for joint in ("", FREE)
+    ]
+
+
+def test_the_zero_modes_of_a_free_mechanism_are_held_and_named(pair):
+    held, free = pair
+    assert not held.notes
+    assert free.notes == (f"rigid-body zero modes held: {', '.join(RIGID_MODES)}",)
+
+
+def test_a_free_mechanism_has_its_folds_at_the_loads_of_the_held_one(pair):
+    held, free = pair
+    assert [p.label for p in free.special_points] == [p.label for p in held.special_points]
+    assert held.of_kind("LP")
+    for a, b in zip(free.special_points, held.special_points, strict=True):
+        assert a["P"] == pytest.approx(b["P"], rel=1e-9)
+
+
+def test_a_free_mechanism_is_as_stable_as_the_held_one(pair):
+    held, free = pair
+    for a, b in zip(free.at(P=3.0), held.at(P=3.0), strict=True):
+        assert (a.stability, a.n_unstable) == (b.stability, b.n_unstable)
+
+
+def test_a_free_mechanism_has_the_internal_state_of_the_held_one(pair):
+    held, free = pair
+    names = [n for n in free.columns if n.startswith("gap") or n in ("x", "z")]
+    assert names
+    for a, b in zip(free.at(P=3.0), held.at(P=3.0), strict=True):
+        assert [a[n] for n in names] == pytest.approx([b[n] for n in names], abs=1e-9)
+
+
+def test_a_free_truss_snaps_at_the_load_of_the_closed_form():
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml(truss(FREE)), "P", bounds=(-300.0, 300.0))
+    snap = 2.0 * 1000.0 * 1.25 * (1.0 - 0.8 ** (2.0 / 3.0)) ** 1.5
+    assert [p["P"] for p in branch.of_kind("LP")] == pytest.approx([snap, -snap], rel=1e-10)
+
+
+def test_where_a_free_mechanism_starts_in_space_makes_no_difference():
+    mechanism = mc.Mechanism.from_xml(truss(FREE))
+    quat = np.array([0.5, -0.1, 0.7, 0.5])
+    state = np.concatenate([[0.4, -2.0, 1.0], quat / np.linalg.norm(quat), [0.0, 0.75]])
+    here = mc.continue_equilibria(mechanism, "P", bounds=(-300.0, 300.0))
+    there = mc.continue_equilibria(mechanism, "P", bounds=(-300.0, 300.0), state=state)
+    assert there.notes == here.notes
+    assert [p["P"] for p in there.of_kind("LP")] == pytest.approx([p["P"] for p in here.of_kind("LP")], rel=1e-9)
+
+
+def test_the_stability_of_a_free_mechanism_changes_at_its_folds_and_nowhere_else():
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml(hexapod(FREE)), "P", bounds=(-20.0, 20.0))
+    for i in range(1, len(branch)):
+        if not (branch.labels[i] or branch.labels[i - 1]):
+            assert branch.n_unstable[i] == branch.n_unstable[i - 1]
+    for p in branch.of_kind("LP"):
+        before, after = branch["P"][p.index - 1], branch["P"][p.index + 1]
+        assert (before - p["P"]) * (after - p["P"]) > 0
+
+
+def test_a_fold_of_a_free_mechanism_can_be_followed_from_a_file(tmp_path):
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml(truss(FREE)), "P", bounds=(-300.0, 300.0))
+    again = mc.load(branch.save(tmp_path / "truss.h5"))
+    assert [p.stability for p in again.at(P=50.0)] == [p.stability for p in branch.at(P=50.0)]
+    locus = mc.continue_special(again.point("LP1"), "tendon:bar_*.springlength", bounds=(1.1, 1.4))
+    assert locus.status == "at bound"
+
+
+TWO_MASSES = """
+<mujoco model="two_masses">
+  <option gravity="0 0 0"/>
+  <statistic extent="1"/>
+  <worldbody>
+    <body name="a">
+      <joint name="a" type="slide" axis="1 0 0"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
+    </body>
+    <body name="b" pos="1 0 0">
+      <joint name="b" type="slide" axis="1 0 0"/><inertial pos="0 0 0" mass="4" diaginertia="1 1 1"/>
+    </body>
+  </worldbody>
+  <tendon>
+    <fixed name="spring" stiffness="100" damping="0.5" springlength="0">
+      <joint joint="a" coef="-1"/><joint joint="b" coef="1"/>
+    </fixed>
+  </tendon>
+  <actuator><general name="T" tendon="spring"/><general name="F" joint="a"/></actuator>
+</mujoco>"""
+
+
+def test_two_masses_on_a_spring_part_by_the_load_over_the_stiffness():
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml(TWO_MASSES), "T", bounds=(-1.0, 1.0))
+    assert branch.notes == ("rigid-body zero modes held: translation along x",)
+    assert branch["b"] - branch["a"] == pytest.approx(branch["T"] / 100.0, abs=1e-12)
+    assert set(branch.stability) == {"stable"}
+
+
+def test_two_masses_on_a_spring_vibrate_with_the_reduced_mass():
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml(TWO_MASSES), "T", bounds=(-1.0, 1.0))
+    reduced = 1.0 * 4.0 / 5.0
+    rate = -0.5 / (2.0 * reduced) + 1j * math.sqrt(100.0 / reduced - (0.5 / (2.0 * reduced)) ** 2)
+    assert np.abs(branch.eigenvalues[0] - rate).min() < 1e-6
+
+
+def test_undamped_a_vibration_of_two_masses_is_marginal():
+    undamped = TWO_MASSES.replace('damping="0.5" ', "")
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml(undamped), "T", bounds=(-1.0, 1.0))
+    assert set(branch.stability) == {"marginal"}
+
+
+def test_a_load_that_pushes_a_free_mechanism_away_has_no_equilibria():
+    mechanism = mc.Mechanism.from_xml(TWO_MASSES)
+    with pytest.raises(mc.StartError, match="F pushes along the rigid-body mode 'translation along x'"):
+        mc.continue_equilibria(mechanism, "F", bounds=(-1.0, 1.0))
