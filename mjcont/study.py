@@ -118,10 +118,10 @@ def _store(branch: Branch, plan: BranchPlan, folder: Path) -> list[Path]:
 
 def draw(plan: PlotPlan, branches: Mapping[str, Branch], folder: Path) -> Path:
     """Draw one plot of a study into a folder and return its file."""
-    from mjcont.plotting import STYLE, plot, save_figure
+    from mjcont.plotting import plot, save_figure, set_panel_title
 
     chosen = [branches[name] for name in plan.branches]
     axes: Any = plot(*chosen, x=plan.x, y=plan.y, labels=plan.labels, degrees=plan.degrees)
     if plan.title:
-        axes.set_title(plan.title, loc="left", fontsize=STYLE["axes.titlesize"])
+        set_panel_title(axes, plan.title)
     return Path(save_figure(axes.figure, folder / plan.file))

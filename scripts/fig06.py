@@ -1,7 +1,7 @@
 """Figure 6: the nose landing gear with every joint elastic.
 
 The gear of Section III (15 degrees of freedom, k_j = 1e6 N/m) at the folds of its equilibria near uplock. Rings:
-elastic joints; orange: the spring between strut and locklink; red: the forces.
+elastic joints; titles: theta_ov; orange: the spring between strut and locklink; red: the forces.
 """
 
 from pathlib import Path
@@ -21,7 +21,7 @@ def main(out: Path) -> list[Finding]:
     )
     folds = [p for b in diagram for p in b.of_kind("LP") if np.degrees(p["theta_1"]) < -20.0]
     folds.sort(key=lambda p: -p["theta_ov"])
-    poses = {f"fold at theta_ov = {np.degrees(p['theta_ov']):+.1f} deg": p for p in folds[:3]}
+    poses = {f"fold at {np.degrees(p['theta_ov']):+.1f} deg": p for p in folds[:3]}
     save_figure(mc.draw_poses(gear, {"downlock": "downlock_below", **poses}, cols=4, size=2.3), out / "fig06.png")
     gap = max(abs(p[name]) for p in folds for name in gear.observables if name[:2] in ("x_", "z_"))
     return [
