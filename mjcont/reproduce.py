@@ -10,7 +10,6 @@ from __future__ import annotations
 import argparse
 import ast
 import hashlib
-import html
 import importlib.util
 import json
 import multiprocessing
@@ -34,6 +33,7 @@ from mjcont.branch import Branch
 from mjcont.errors import MjcontError, NameLookupError
 from mjcont.loading import models_folder
 from mjcont.numerics.problem import Array
+from mjcont.report import as_html, markdown, verdict
 from mjcont.storage import write_atomically
 
 _SCRIPT = re.compile(r"fig(\d\d)\.py")
@@ -123,7 +123,7 @@ def run_script(main: Callable[[Path], Sequence[Finding]]) -> None:
     out = parser.parse_args().out
     out.mkdir(parents=True, exist_ok=True)
     findings = main(out)
-    print("\n".join(f"[{_verdict(f)}] {f.claim}\n    {f.computed}" for f in findings))
+    print("\n".join(f"[{verdict(f)}] {f.claim}\n    {f.computed}" for f in findings))
 
 
 def scripts_folder() -> Path:
@@ -186,8 +186,8 @@ def reproduce(
             say(str(result))
     finally:
         done = [results[n] for n in sorted(results)]
-        _write(out / "report.md", _markdown(done))
-        report = _write(out / "report.html", _html(done))
+        _write(out / "report.md", markdown(done, versions()))
+        report = _write(out / "report.html", as_html(done, versions()))
     say(f"report: {report}")
     return ReproduceResult({n: results[n] for n in numbers}, report)
 
@@ -340,60 +340,3 @@ def _stamp(figure: int) -> str:
     for path in files:
         digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
     return digest.hexdigest()
-
-
-def _verdict(finding: Finding) -> str:
-    return "holds" if finding.holds else "does not hold"
-
-
-def _heading(results: Sequence[FigureResult]) -> tuple[str, str]:
-    findings = [f for r in results for f in r.findings]
-    count = f"{sum(f.holds for f in findings)} of {len(findings)} findings hold in {len(results)} figures"
-    return "The paper's figures, drawn by mjcont", f"{count}. " + ", ".join(f"{k} {v}" for k, v in versions().items())
-
-
-def _markdown(results: Sequence[FigureResult]) -> str:
-    title, summary = _heading(results)
-    lines = [f"# {title}", "", f"{summary}.", ""]
-    for r in results:
-        lines += [f"## {r.title}", "", *([r.caption, ""] if r.caption else [])]
-        if r.reason:
-            lines += [f"**Failed**: {r.reason}", ""]
-            continue
-        lines += [f"![Figure {r.figure}]({r.image})", "", "| Claim | Computed | |", "|---|---|---|"]
-        cells = [(f.claim, f.computed, _verdict(f)) for f in r.findings]
-        lines += ["| " + " | ".join(c.replace("|", "\\|") for c in row) + " |" for row in cells] + [""]
-    return "\n".join(lines)
-
-
-_CSS = """
-body { font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 60rem; margin: 2rem auto;
-       padding: 0 1rem }
-h1 { font-size: 1.6rem } h2 { font-size: 1.2rem; margin-top: 3rem }
-.versions { color: #666; font-size: .9rem }
-img { max-width: 100%; height: auto; display: block; margin: 1rem 0 }
-table { border-collapse: collapse; width: 100%; font-size: .92rem }
-th, td { text-align: left; vertical-align: top; padding: .45rem .6rem; border-bottom: 1px solid #ddd }
-td:last-child { white-space: nowrap; font-weight: 600 }
-.holds { color: #1a6b3c } .fails { color: #a8201a }
-"""
-
-
-def _html(results: Sequence[FigureResult]) -> str:
-    title, summary = (html.escape(t) for t in _heading(results))
-    body = [f"<h1>{title}</h1>", f'<p class="versions">{summary}.</p>']
-    for r in results:
-        body += [f'<h2 id="fig{r.figure:02d}">{html.escape(r.title)}</h2>']
-        body += [f"<p>{html.escape(r.caption)}</p>"] if r.caption else []
-        if r.reason:
-            body += [f'<p class="fails">Failed: {html.escape(r.reason)}</p>']
-            continue
-        body += [f'<img src="{r.image}" alt="Figure {r.figure}">', "<table>"]
-        body += ["<tr><th>Claim</th><th>Computed</th><th></th></tr>"]
-        for f in r.findings:
-            cells = f"<td>{html.escape(f.claim)}</td><td>{html.escape(f.computed)}</td>"
-            body += [f'<tr>{cells}<td class="{"holds" if f.holds else "fails"}">{_verdict(f)}</td></tr>']
-        body += ["</table>"]
-    head = f'<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{title}</title>'
-    lines = ["<!DOCTYPE html>", '<html lang="en">', f"<head>{head}<style>{_CSS}</style></head>", "<body>", *body]
-    return "\n".join([*lines, "</body>", "</html>", ""])

@@ -1,0 +1,67 @@
+"""Planar chains of random bars, springs and closures: whatever comes, a branch ends with a truthful status."""
+
+import numpy as np
+import pytest
+
+import mjcont as mc
+
+STATUSES = {"at bound", "closed", "step too small", "max points", "runs off"}
+
+
+def linkage(seed: int) -> str:
+    """Return two to five bars with random masses and springs, pulled by a spring, often closed by a stiff bush."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(2, 6))
+    lengths, angles = rng.uniform(0.3, 1.0, count), np.cumsum(rng.uniform(-1.0, 1.0, count))
+    bars = np.column_stack([lengths * np.cos(angles), lengths * np.sin(angles)])
+    bodies = ""
+    for i, (x, z) in enumerate(bars):
+        place = "0 0 0" if i == 0 else f"{bars[i - 1, 0]} 0 {bars[i - 1, 1]}"
+        stiffness = rng.uniform(0.0, 20.0) * (rng.random() < 0.7)
+        bodies += (
+            f'<body pos="{place}"><joint name="q{i}" axis="0 -1 0" stiffness="{stiffness}" '
+            f'damping="{rng.uniform(0.01, 1.0)}"/>'
+            f'<geom type="capsule" fromto="0 0 0 {x} 0 {z}" size="0.02" mass="{rng.uniform(0.1, 3.0)}"/>'
+        )
+    end, anchor = bars.sum(axis=0), rng.uniform(-1.0, 1.0, 2)
+    bush = ""
+    if rng.random() < 0.6:
+        k = 10.0 ** rng.uniform(3.0, 6.0)
+        bush = "".join(
+            f'<general name="bush_{a}" site="tip" refsite="ground" gear="{g} 0 0 0" gainprm="0" biastype="affine" '
+            f'biasprm="0 {-k} {-1e-3 * k}"/>'
+            for a, g in (("x", "1 0 0"), ("z", "0 0 1"))
+        )
+    return f"""<mujoco model="linkage_{seed}"><compiler angle="radian"/>
+      <option gravity="0 0 -9.81"><flag contact="disable"/></option>
+      <worldbody>{bodies}<site name="tip" pos="{bars[-1, 0]} 0 {bars[-1, 1]}"/>{"</body>" * count}
+      <site name="ground" pos="{end[0]} 0 {end[1]}"/><site name="anchor" pos="{anchor[0]} 0 {anchor[1]}"/></worldbody>
+      <tendon><spatial stiffness="{rng.uniform(0.0, 200.0)}" springlength="{rng.uniform(0.1, 1.0)}">
+      <site site="anchor"/><site site="tip"/></spatial></tendon>
+      <actuator><general name="M" joint="q0"/>{bush}</actuator></mujoco>"""
+
+
+def check(seed: int) -> None:
+    """Follow a linkage's equilibria and hold what is found against the model itself."""
+    mechanism = mc.Mechanism.from_xml(linkage(seed))
+    branch = mc.continue_equilibria(mechanism, "M", bounds=(-30.0, 30.0), max_points=400)
+    assert {word for word, _ in branch.ends} <= STATUSES
+    assert all(sentence for _, sentence in branch.ends)
+    assert branch.residuals.max() < 1e-10
+    assert all(p.converged and p.tolerance < 1e-8 for p in branch.special_points)
+    for i in range(0, len(branch), max(len(branch) // 10, 1)):
+        values = mechanism.values(branch.row(i).parameters)
+        forces = mechanism.residual(branch.states[i], values)
+        stiffest = np.abs(mechanism.linearize(branch.states[i], values, ()).jac).max()
+        assert np.abs(forces).max() < 1e-12 * stiffest  # what rounding of the angles alone would load the bush with
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_random_linkage_is_followed_to_a_truthful_end(seed):
+    check(seed)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(20, 200))
+def test_two_hundred_random_linkages_are_followed_to_a_truthful_end(seed):
+    check(seed)
