@@ -59,11 +59,14 @@ class FieldWriter:
             "body_inertia": model.body_inertia.copy(),
         }
         self._written = {name: p.value for name, p in parameters.items()}
+        self._last: dict[str, float] | None = None
         self._groups: dict[str, tuple[str, ...]] = {}
         self._grouped = 0
 
     def write(self, parameters: Mapping[str, Parameter], values: Mapping[str, float]) -> None:
         """Make the model have `values`; names that are left out have the model's own."""
+        if values == self._last:
+            return
         if not values.keys() <= parameters.keys():
             raise unknown_name("parameter", next(n for n in values if n not in parameters), parameters)
         written = self._written
@@ -75,7 +78,9 @@ class FieldWriter:
             self._rewrite(parameters, changed, new)
         except BaseException:  # an interrupt half-way: everything is written anew next time
             written.clear()
+            self._last = None
             raise
+        self._last = dict(values)
 
     def _rewrite(self, parameters: Mapping[str, Parameter], changed: list[str], new: Mapping[str, float]) -> None:
         written = self._written
