@@ -105,9 +105,16 @@ class VectorField:
     # -- the problem -----------------------------------------------------------------------------------------
 
     def residual(self, x: Array, values: Values) -> Array:
-        """Return f, (n,)."""
+        """Return f, (n,); NaN where the function overflows or leaves its domain."""
         self.evaluations += 1
-        return np.array(self.function(x, values), dtype=float).reshape(self.n)
+        try:
+            return np.array(self.function(x, values), dtype=float).reshape(self.n)
+        except ArithmeticError:  # an overflow or division by zero ends a curve there, with what came before
+            return np.full(self.n, np.nan)
+        except ValueError as error:
+            if "math domain" in str(error) or "nonnegative" in str(error) or "positive input" in str(error):
+                return np.full(self.n, np.nan)
+            raise
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x plus each row of `steps`, (m, n)."""

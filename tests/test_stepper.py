@@ -535,3 +535,13 @@ def test_a_start_without_an_equilibrium_is_an_error_that_says_where_it_looked():
 def test_settings_that_contradict_each_other_are_refused(options, message):
     with pytest.raises(mc.ParameterError, match=message):
         follow_cusp(**options)
+
+
+@pytest.mark.parametrize("root", [math.sqrt, np.sqrt], ids=["math", "numpy"])
+def test_a_curve_that_meets_the_edge_of_its_function_ends_there_and_keeps_what_came_before(root):
+    field = mc.VectorField(lambda u, p: [root(1.0 - p["mu"]) - u[0]], [1.0], {"mu": 0.0})
+    branch = mc.continue_equilibria(field, "mu", bounds=(-1.0, 2.0))
+    word, sentence = branch.ends[-1]
+    assert word == "step too small"
+    assert "f is not finite there" in sentence
+    assert 0.9 < branch["mu"].max() < 1.0

@@ -94,7 +94,7 @@ def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None,
         step = _broyden(_newton_step(system, local, y, lu, row)[0], steps)
         last, size = size, float(np.linalg.norm(step))
         if not size < _LARGEST_STEP:
-            failure = "the corrector diverged"
+            failure = "the corrector diverged" if np.isfinite(size) else "f is not finite there"
             break
         ratio = size / last if np.isfinite(last) else 0.0
         x, y = system.move(x, y, step)
