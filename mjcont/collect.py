@@ -132,7 +132,8 @@ def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
     rows: list[tuple[CurvePoint, Located | None]] = [(p, None) for p in run.points]
     rows += [(e.point, e) for e in run.special]
     rows = sorted(rows, key=lambda r: r[0].s)
-    return [*rows, rows[0]] if run.end.status is Status.CLOSED else rows
+    closed = run.end.status is Status.CLOSED and "turns" not in run.end.message
+    return [*rows, rows[0]] if closed else rows
 
 
 def build_branch(

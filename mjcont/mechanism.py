@@ -239,6 +239,22 @@ class Mechanism:
         velocity = steps[:, self.n :]
         return np.hstack([velocity, self._evaluator.accelerations(self._moved(x, steps[:, : self.n]), velocity)])
 
+    def periods(self, x: Array, values: Values) -> Array:
+        """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
+        found = np.full(self.n, np.inf)
+        if not self._flat:
+            return found
+        self._writer.write(self.parameters, values)
+        hinges = [j for j, (_, unit) in enumerate(self.state_labels) if unit == "rad"]
+        beside = x + 0.1 * self.state_scale * np.cos(1.0 + np.arange(self.n))
+        turned = beside + 2.0 * np.pi * np.eye(self.n)[hinges]
+        rows = self._evaluator.forces(np.concatenate([beside[None], turned])).copy()
+        change = np.abs(rows[1:] - rows[0]).max(axis=1, initial=0.0)
+        for j, c in zip(hinges, change, strict=True):
+            if c <= 1e-9 * np.abs(rows[0]).max():
+                found[j] = 2.0 * np.pi
+        return found
+
     # -- rigid-body zero modes -------------------------------------------------------------------------------
 
     def rigid_modes(self, x: Array, values: Values) -> tuple[str, ...]:

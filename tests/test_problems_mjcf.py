@@ -182,3 +182,17 @@ def test_no_hopf_point_is_reported_where_nothing_damps_the_column_and_no_frequen
     flutter = 7.0 / 2.0 - math.sqrt(2.0)
     elsewhere = [p["P"] for p in column_branch(0.0).of_kind("HB") if abs(p["P"] - flutter) > 1e-6]
     assert elsewhere == []
+
+
+def test_a_pendulum_that_turns_all_the_way_round_closes_a_full_turn_apart():
+    # M = m g l sin q: folds at a quarter turn and at three quarters, and then the same again
+    mechanism = mc.Mechanism.from_xml(
+        """<mujoco model="turning"><option gravity="0 0 -9.81"/><worldbody><body>
+        <joint name="q" axis="0 1 0" damping="0.1"/><inertial pos="0 0 -1" mass="2" diaginertia="1e-3 1e-3 1e-3"/>
+        </body></worldbody><actuator><general name="M" joint="q"/></actuator></mujoco>"""
+    )
+    branch = mc.continue_equilibria(mechanism, "M", bounds=(-100.0, 100.0))
+    assert branch.status == "closed"
+    assert branch.message.endswith("full turns apart")
+    assert sorted(p["M"] for p in branch.special_points) == pytest.approx([-19.62, 19.62], rel=1e-10)
+    assert np.ptp(branch["q"]) == pytest.approx(2.0 * math.pi, abs=0.2)

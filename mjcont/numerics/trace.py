@@ -7,12 +7,14 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import Any
 
 import numpy as np
 
 from mjcont.numerics.arclength import CurvePoint, advance, by_contraction, land, may_turn_twice, next_step
 from mjcont.numerics.corner import NEAR, cross
 from mjcont.numerics.events import Detector, Located, Retry
+from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import System
 
@@ -84,6 +86,7 @@ class Walker:
         for detector in self.detectors:
             detector.changed(point, point)
         last: dict[str, Located] = {}
+        periods = self._periods(start)
         largest = settings.max_size * max(1.0, self._size(start))
         while True:
             limit = self._limit(point, count, began)
@@ -104,9 +107,11 @@ class Walker:
                 if special.kind in self.end_at:
                     yield End(Status.AT_SPECIAL_POINT, f"the curve was to end at a point of kind {special.kind}")
                     return
-            if ending is None and self._passes(start, point, new):
-                yield End(Status.CLOSED, "the curve closes on itself")
-                return
+            if ending is None:
+                turns = self._passes(start, point, new, periods)
+                if turns is not None:
+                    yield End(Status.CLOSED, "the curve closes on itself" + (", full turns apart" if turns else ""))
+                    return
             if ending is None or new.s - point.s > _SAME_POINT:
                 yield new
             if ending is not None:
@@ -190,16 +195,27 @@ class Walker:
         located = _distinct(located)
         return sorted(located, key=lambda e: e.point.s)
 
-    def _passes(self, start: CurvePoint, old: CurvePoint, new: CurvePoint) -> bool:
-        """Whether the step from old to new passes the start in its direction: the curve is closed."""
+    def _periods(self, start: CurvePoint) -> Array:
+        """Return the periods of the scaled state coordinates, infinite where a coordinate has none, (n,)."""
+        problem: Any = self.system.problem
+        if self.system.conditions or not hasattr(problem, "periods"):
+            return np.full(self.system.n, np.inf)
+        return problem.periods(start.x, self.system.values(start.y)) / problem.state_scale
+
+    def _passes(self, start: CurvePoint, old: CurvePoint, new: CurvePoint, periods: Array) -> bool | None:
+        """Return whether the step from old to new passes the start a full turn away; None if it does not pass it."""
         if old.s < 2.0 * (new.s - old.s) or start.tangent @ new.tangent < math.cos(2.0 * self.settings.angle_max):
-            return False
+            return None
         chord = self.system.difference(new.x, new.y, old.x, old.y)
         to_start = self.system.difference(start.x, start.y, old.x, old.y)
+        finite = np.isfinite(periods)
+        turns = np.zeros(self.system.n)
+        turns[finite] = np.round(to_start[: self.system.n][finite] / periods[finite])
+        to_start[: self.system.n][finite] -= turns[finite] * periods[finite]
         length = float(np.linalg.norm(chord))
         along = float(to_start @ chord) / length
         aside = float(np.linalg.norm(to_start - along * chord / length))
-        return 0.0 < along <= length and aside <= 0.1 * length
+        return bool(turns.any()) if 0.0 < along <= length and aside <= 0.1 * length else None
 
     def _where(self, point: CurvePoint) -> str:
         free = zip(self.system.free, point.y, strict=False)
