@@ -22,7 +22,6 @@ from mjcont.numerics.settings import Settings
 from mjcont.numerics.spectrum import spectrum
 from mjcont.numerics.system import Free, Local, System
 from mjcont.numerics.trace import Trace, Walker, trace
-from mjcont.storage import special_from_row
 
 _ENDS = ("first", "last")
 _SAME = 1e-4
@@ -233,19 +232,5 @@ def _relabelled(branch: Branch, points: Sequence[tuple[SpecialPoint, int]]) -> l
     found = []
     for p, index in points:
         counts[p.kind] = counts.get(p.kind, 0) + 1
-        found.append(
-            special_from_row(
-                branch.row(index),
-                kind=p.kind,
-                label=f"{p.kind}{counts[p.kind]}",
-                index=index,
-                tolerance=p.tolerance,
-                converged=p.converged,
-                coefficients=p.coefficients,
-                vectors=p.vectors,
-                note=p.note,
-                free=branch.free,
-                curve=p.curve,
-            )
-        )
+        found.append(replace(p, label=f"{p.kind}{counts[p.kind]}", index=index, free=branch.free))
     return found

@@ -242,12 +242,10 @@ class Mechanism:
     def periods(self, x: Array, values: Values) -> Array:
         """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
         found = np.full(self.n, np.inf)
-        if not self._flat:
-            return found
         self._writer.write(self.parameters, values)
-        hinges = [j for j, (_, unit) in enumerate(self.state_labels) if unit == "rad"]
-        beside = x + 0.1 * self.state_scale * np.cos(1.0 + np.arange(self.n))
-        turned = beside + 2.0 * np.pi * np.eye(self.n)[hinges]
+        hinges = [j for j, (_, unit) in enumerate(self.state_labels) if unit == "rad" and self._flat]
+        beside = self.retract(x, 0.1 * self.state_scale * np.cos(1.0 + np.arange(self.n)))
+        turned = beside + 2.0 * np.pi * np.eye(self.nq)[hinges]
         rows = self._evaluator.forces(np.concatenate([beside[None], turned])).copy()
         change = np.abs(rows[1:] - rows[0]).max(axis=1, initial=0.0)
         for j, c in zip(hinges, change, strict=True):

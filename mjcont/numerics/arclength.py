@@ -1,8 +1,8 @@
 """Pseudo-arclength continuation: one step, and the loop that repeats it.
 
-The stepper predicts along the tangent and corrects orthogonally to it. Steps are chosen from the contraction of the
-corrector and from the angle between successive tangents; a step is refused when the tangent turns too far or the
-corrector wanders, so that a neighbouring branch is not jumped to.
+The stepper predicts on the cubic through the last two points with their tangents and corrects orthogonally to the
+tangent. Steps are chosen from the contraction of the corrector and from the angle between successive tangents; a step
+is refused when the tangent turns too far or the corrector wanders, so that a neighbouring branch is not jumped to.
 """
 
 from __future__ import annotations

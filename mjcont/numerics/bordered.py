@@ -29,7 +29,6 @@ class Factored:
     Attributes
     ----------
     sign : sign of the determinant (0 where a pivot vanished).
-    smallest : smallest pivot relative to the largest, a cheap hint of singularity.
     """
 
     def __init__(self, matrix: Any) -> None:
@@ -51,8 +50,6 @@ class Factored:
             if not pivots.all():
                 self._lu[pivots == 0.0, pivots == 0.0] = 1e-16
         self.sign = float(parity * np.prod(np.sign(pivots)))
-        sizes = np.abs(pivots)
-        self.smallest = float(sizes.min() / sizes.max()) if sizes.size and sizes.max() > 0 else 0.0
 
     def solve(self, rhs: Array) -> Array:
         """Return the solution of A z = rhs."""

@@ -203,21 +203,12 @@ class Hopf:
 
     def value(self, local: Local, aux: Array) -> Array:
         """Return (g0, g1)."""
-        return self._solve(local, self.square(aux) / self.inner**2)[1]
+        return self._solve(local, self.square(aux) / self.inner**2)
 
-    def _solve(self, local: Local, k: float) -> tuple[Array, Array]:
+    def _solve(self, local: Local, k: float) -> Array:
         rhs = np.zeros(2 * len(self.b0) + 2)
         rhs[-2] = 1.0
-        solution = Factored(self._bordered(local, k)).solve(rhs)
-        return solution[:-2], solution[-2:]
-
-    def eigenvector(self, local: Local, aux: Array) -> Array:
-        """Return the complex eigenvector q in physical units for s = i omega (k > 0), |q| = 1."""
-        n = len(self.b0)
-        k = self.square(aux) / self.inner**2
-        q, _ = self._solve(local, k)
-        full = (q[:n] + 1j * np.sqrt(abs(k)) * q[n:]) * local.problem.state_scale
-        return full / np.linalg.norm(full)
+        return Factored(self._bordered(local, k)).solve(rhs)[-2:]
 
     def square(self, aux: Array) -> float:
         """Return omega^2 (negative at a neutral saddle), in 1/s^2."""

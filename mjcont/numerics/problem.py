@@ -11,7 +11,7 @@ protocol; it never imports MuJoCo.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -104,5 +104,3 @@ class Problem(Protocol):
         """Return the tangent step (n,) that takes x0 to x1."""
         ...
 
-
-Monitor = Callable[[Array, Values], float]
