@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mjcont.errors import MjcontError, ResultFileError
+from mjcont.quantities import FRICTION
 
 if TYPE_CHECKING:
     from mjcont.branch import Branch, Point
@@ -75,7 +76,9 @@ def _inspect(args: argparse.Namespace) -> int:
     else:
         from mjcont.mechanism import Mechanism
 
-        say(str(Mechanism.from_xml(args.model)))
+        with _warnings_as_lines():
+            mechanism = Mechanism.from_xml(args.model, friction=args.friction or FRICTION[0])
+        say(str(mechanism))
     return OK
 
 
@@ -83,7 +86,8 @@ def _run(args: argparse.Namespace) -> int:
     from mjcont.progress import Reporter, Table
     from mjcont.study import load_study, run_study
 
-    study = load_study(args.study)
+    with _warnings_as_lines():
+        study = load_study(args.study, friction=args.friction)
     if args.quiet:
         reporter = Reporter()
     else:
@@ -124,7 +128,8 @@ def _view(args: argparse.Namespace) -> int:
         return OK
     from mjcont.mechanism import Mechanism
 
-    mechanism = Mechanism.from_xml(args.model)
+    with _warnings_as_lines():
+        mechanism = Mechanism.from_xml(args.model)
     view(mechanism, mechanism.start_state(args.keyframe), mechanism.values())
     return OK
 
@@ -137,24 +142,19 @@ def _reproduce(args: argparse.Namespace) -> int:
 
 
 def _bush(args: argparse.Namespace) -> int:
-    import warnings
-
     from mjcont.bushes import bushed_xml
     from mjcont.loading import compile_spec, parse
 
     out = Path(args.out)
     if out.exists() and Path(args.model).exists() and out.samefile(args.model):
         raise MjcontError(f"'{out}' is the model itself: give the new one a name of its own")
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", UserWarning)
+    with _warnings_as_lines():
         text = bushed_xml(
             args.model, args.joint, args.connect, stiffness=args.stiffness, damping=args.damping, frame=args.frame
         )
     compile_spec(parse(text, out.resolve().parent, f"'{out}' (files beside the model must be beside it, too)"))
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(text, encoding="utf-8")
-    for warning in caught:
-        print(f"mjcont: warning: {warning.message}", file=sys.stderr)
     say(f"written: {out}")
     return OK
 
@@ -171,6 +171,18 @@ def _export(args: argparse.Namespace) -> int:
 
 def _is_result(name: str) -> bool:
     return Path(name).suffix.lower() in _RESULT_SUFFIXES
+
+
+@contextmanager
+def _warnings_as_lines() -> Iterator[None]:
+    """Print each warning for the user as one line, once the work that gives it is done."""
+    import warnings
+
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", UserWarning)
+        yield
+    for warning in caught:
+        print(f"mjcont: warning: {' '.join(str(warning.message).split())}", file=sys.stderr)
 
 
 @contextmanager
@@ -197,7 +209,8 @@ def _point_of_model(args: argparse.Namespace) -> Point | None:
         raise MjcontError("--label goes with a result file; for a model use --keyframe or --at")
     if not args.at:
         return None
-    mechanism = Mechanism.from_xml(args.model)
+    with _warnings_as_lines():
+        mechanism = Mechanism.from_xml(args.model)
     return find_equilibrium(
         mechanism, {name: _value(name, text, mechanism.parameter(name).unit) for name, text in args.at}
     )
@@ -278,13 +291,16 @@ def _parser() -> argparse.ArgumentParser:
         added.set_defaults(command=function)
         return added
 
+    friction_help = "leave friction out of equilibria, or refuse models that have it (default: frictionless)"
     model_help = "an MJCF file, or the name of a model that ships with mjcont, such as overcentre"
     p = command("inspect", _inspect, "show a model's parameters, observables and starts, or a result's summary")
     p.add_argument("model", metavar="MODEL|FILE.h5", help=model_help + "; or a result file")
+    p.add_argument("--friction", choices=FRICTION, help=friction_help)
 
     p = command("run", _run, "run a study: compute its branches, store them, draw its plots")
     p.add_argument("study", metavar="STUDY.toml", help="the study file (docs/studies.md)")
     p.add_argument("-o", "--out", metavar="DIR", default="out", help="folder for results (default: out)")
+    p.add_argument("--friction", choices=FRICTION, help=friction_help + " or the study's own")
     p.add_argument("-q", "--quiet", action="store_true", help="print errors only")
 
     p = command("plot", _plot, "draw a diagram of stored branches")

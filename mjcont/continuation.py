@@ -59,6 +59,8 @@ def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) ->
         If they are not two increasing finite numbers, or lie outside a control's range.
     """
     parameter = problem.parameter(name)
+    if parameter.kind == "switch":
+        raise BoundsError(f"'{name}' is a switch, 0 or 1, and cannot vary along a curve: give it as a start value")
     if bounds is None:
         own, hard = parameter.bounds, parameter.hard_bounds
         return max(own[0], hard[0]), min(own[1], hard[1])
@@ -71,8 +73,8 @@ def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) ->
     hard_low, hard_high = parameter.hard_bounds
     if low < hard_low or high > hard_high:
         raise BoundsError(
-            f"bounds ({low:g}, {high:g}) of {name} leave the actuator's ctrlrange [{hard_low:g}, {hard_high:g}], "
-            "where MuJoCo would clamp it: narrow the bounds or widen the ctrlrange in the XML"
+            f"bounds ({low:g}, {high:g}) of {name} leave {parameter.limit} [{hard_low:g}, {hard_high:g}], "
+            "where MuJoCo would clamp it: narrow the bounds or widen the range in the XML"
         )
     return low, high
 

@@ -20,7 +20,7 @@ from mjcont.quantities import Observable
 def _energy(model: mujoco.MjModel, data: mujoco.MjData) -> float:
     mujoco.mj_energyPos(model, data)
     total = float(data.energy[0])
-    for i in range(model.nu):
+    for i in range(model.nactuator):
         if is_bush(model, i):
             if model.actuator_biastype[i] != mujoco.mjtBias.mjBIAS_AFFINE:
                 return math.nan

@@ -41,6 +41,10 @@ class ResultFileError(MjcontError):
     """A result file that cannot be read or does not fit the given problem."""
 
 
+class ModelWarning(UserWarning):
+    """A feature of a model that is left out, with the reason."""
+
+
 def unknown_name(kind: str, name: str, valid: Iterable[str]) -> NameLookupError:
     """Return the error for `name`, which is not among `valid`: close matches first, then the whole list."""
     choices = sorted(valid)

@@ -146,7 +146,7 @@ def simulate(
     if v.shape != (mechanism.n,):
         raise ParameterError(f"velocity must have shape ({mechanism.n},), got {v.shape}")
     run = _Run(mechanism, model, values, functions, x, v, count, every)
-    controls_only = all(mechanism.parameter(n).kind == "control" for n in functions)
+    controls_only = all(mechanism.parameter(n).kind == "control" for n in functions) and not model.actuator_delay.any()
     states, velocities = run.by_rollout() if controls_only else run.by_steps()
     return _history(mechanism, run, states, velocities, duration, integrator, step)
 
@@ -185,7 +185,8 @@ class _Run:
         """Step in MuJoCo's own loop, for inputs that are controls."""
         writer = self._writer()
         batch = Batch(self.model, 1, nthread=1)
-        batch.qpos, batch.qvel, batch.ctrl = self.x, self.v, writer.ctrl
+        writer.inputs.put_rows(batch)
+        batch.qpos, batch.qvel = self.x, self.v
         states, velocities = [self.x[None]], [self.v[None]]
         chunk = max(self.every, _CHUNK // self.every * self.every)
         for begin in range(0, self.count, chunk):
@@ -201,7 +202,7 @@ class _Run:
 
     def _controls(self, writer: FieldWriter, begin: int, length: int) -> Array:
         """Return the control vector at every step, (length, nu): inputs are taken at mid-step."""
-        table = np.tile(writer.ctrl, (length, 1))
+        table = np.tile(writer.inputs.ctrl, (length, 1))
         times = (begin + 0.5 + np.arange(length)) * self.model.opt.timestep
         for name, function in self.functions.items():
             series = np.array([function(t) for t in times])
@@ -213,12 +214,13 @@ class _Run:
     def by_steps(self) -> tuple[Array, Array]:
         """Step one by one, writing the inputs' model fields before each step."""
         writer, data = self._writer(), mujoco.MjData(self.model)
+        writer.inputs.begin(data)
         data.qpos[:], data.qvel[:] = self.x, self.v
         states, velocities = [self.x.copy()], [self.v.copy()]
         for k in range(self.count):
             t = (k + 0.5) * self.model.opt.timestep
             writer.write(self.mechanism.parameters, {n: f(t) for n, f in self.functions.items()})
-            data.ctrl[:] = writer.ctrl
+            writer.inputs.drive(data)
             mujoco.mj_step(self.model, data)
             if (k + 1) % self.every == 0:
                 states.append(data.qpos.copy())

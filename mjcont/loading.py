@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from mjcont.errors import ModelError
+from mjcont.errors import ModelError, ParameterError, unknown_name
+from mjcont.features import touching
 from mjcont.mjcf import exact_text
 from mjcont.observables import without_sensor_filters
 from mjcont.topology import describe_topology
@@ -87,41 +88,47 @@ def copy_model(model: mujoco.MjModel) -> mujoco.MjModel:
     return copy.copy(model)
 
 
+def owned_copy(model: mujoco.MjModel) -> mujoco.MjModel:
+    """Return a copy without the control ranges that the model itself does not clamp: they are no limits."""
+    own = copy_model(model)
+    if model.opt.disableflags & _DISABLE.mjDSBL_CLAMPCTRL:
+        own.actuator_ctrllimited[:] = 0
+    return own
+
+
+def start_state(
+    mechanism: Mechanism, keyframe: str | None = None, state: np.ndarray | None = None
+) -> np.ndarray:
+    """Return a start: the state given, or a keyframe's, or qpos0."""
+    m: Any = mechanism
+    if state is not None:
+        x = np.array(state, dtype=float)
+        if x.shape != (m.nq,):
+            raise ParameterError(f"state must have shape ({m.nq},) for model '{m.name}', got {x.shape}")
+        return x
+    if keyframe is None:
+        return np.array(m.qpos0)
+    if keyframe not in m.keyframes:
+        raise unknown_name("keyframe", keyframe, m.keyframes)
+    return np.array(m.keyframes[keyframe])
+
+
 def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     """Return the private copy on which residuals are evaluated.
 
     Its integrator is one for which qacc is the forward-dynamics acceleration, sensors are off, and controls are
-    never clamped (bounds outside a ctrlrange are refused before). A ctrlrange that the model itself does not clamp
-    is no limit.
+    never clamped (bounds outside a ctrlrange are refused before). Controls have reached their actuators, and dry
+    friction is off. `model` itself, which observables are read from, loses what delays controls and filters sensors.
     """
+    model.actuator_delay[:] = 0.0
     private = copy_model(model)
-    if model.opt.disableflags & _DISABLE.mjDSBL_CLAMPCTRL:
-        private.actuator_ctrllimited[:] = 0
     private.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     private.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
     private.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # sparse constraint Jacobians are wrong in MuJoCo 4.0.0
     private.opt.disableflags |= int(_DISABLE.mjDSBL_SENSOR) | int(_DISABLE.mjDSBL_CLAMPCTRL)
+    private.opt.disableflags |= int(_DISABLE.mjDSBL_FRICTIONLOSS)
     without_sensor_filters(model)
     return private
-
-
-def refuse_unsupported(model: mujoco.MjModel) -> None:
-    """Raise a ModelError for features whose equilibria this version cannot compute, saying what to do instead."""
-    off = int(model.opt.disableflags)
-    constraints = not off & _DISABLE.mjDSBL_CONSTRAINT
-    if model.nv == 0:
-        raise ModelError("the model has no degree of freedom")
-    if model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP:
-        raise ModelError('sleeping bodies make equilibria path dependent: remove <flag sleep="enable"/>')
-    if np.any(model.jnt_springyield > 0) or np.any(model.tendon_springyield > 0):
-        raise ModelError("plastic springs (springyield) make equilibria path dependent: set springyield to 0")
-    if model.na:
-        raise ModelError("actuators with activation states (muscle, filter, integrator) are not supported yet")
-    if constraints and not off & _DISABLE.mjDSBL_FRICTIONLOSS and _has_friction(model):
-        raise ModelError(
-            "dry friction (frictionloss) carries no load at rest in MuJoCo, so rest under friction is no equilibrium: "
-            "remove it, or treat the model as frictionless with <flag frictionloss=\"disable\"/>"
-        )
 
 
 def is_constrained(model: mujoco.MjModel) -> bool:
@@ -131,25 +138,8 @@ def is_constrained(model: mujoco.MjModel) -> bool:
         return False
     equality = bool(model.neq) and not off & _DISABLE.mjDSBL_EQUALITY
     limits = bool(model.jnt_limited.any() or model.tendon_limited.any()) and not off & _DISABLE.mjDSBL_LIMIT
-    contact = not off & _DISABLE.mjDSBL_CONTACT and _can_touch(model)
+    contact = not off & _DISABLE.mjDSBL_CONTACT and (model.npair > 0 or any(True for _ in touching(model)))
     return equality or limits or contact
-
-
-def _has_friction(model: mujoco.MjModel) -> bool:
-    return bool(np.any(model.dof_frictionloss > 0) or np.any(model.tendon_frictionloss > 0))
-
-
-def _can_touch(model: mujoco.MjModel) -> bool:
-    """Return whether two geoms of different bodies could collide, parent and child apart."""
-    kind, affinity, body = model.geom_contype, model.geom_conaffinity, model.geom_bodyid
-    parent = model.body_parentid
-    for i in range(model.ngeom):
-        for j in range(i):
-            a, b = model.body_weldid[body[i]], model.body_weldid[body[j]]
-            related = a == b or (a and b and (parent[a] == b or parent[b] == a))
-            if not related and (kind[i] & affinity[j] or kind[j] & affinity[i]):
-                return True
-    return model.npair > 0
 
 
 def model_name(model: mujoco.MjModel) -> str:
@@ -212,13 +202,13 @@ def _number(value: float, unit: str) -> str:
 def describe(mechanism: Mechanism) -> str:
     """Return what `mjcont inspect` prints."""
     m: Any = mechanism
-    kinds = {"control": "control", "gravity": "gravity", "field": "model field"}
+    kinds = {"control": "control", "gravity": "gravity"}
     lines = [f"{m.name}: {m.n} degrees of freedom, {len(m.bushes)} bush elements"]
     if m.constrained:
         lines[0] += ", with constraints (equalities, limits or contacts)"
     rows = [["name", "value", "unit", "from", "to", "acts on"]]
     for p in m.parameters.values():
-        acts = kinds[p.kind] if p.kind != "field" else " ".join(t.path for t in p.targets)
+        acts = kinds.get(p.kind) or " ".join(t.path for t in p.targets)
         unit = "deg" if p.unit == "rad" else p.unit
         cells = [_number(v, p.unit).removesuffix(" deg") for v in (p.value, *p.bounds)]
         rows.append([p.name, cells[0], unit, cells[1], cells[2], acts])
@@ -230,4 +220,6 @@ def describe(mechanism: Mechanism) -> str:
     lines += ["", "observables", *_table(rows)]
     lines += ["", "structure", *describe_topology(m.simulation_model())]
     lines += ["", "starts", "  qpos0", *(f"  keyframe {k}" for k in m.keyframes)]
+    if m.notes:
+        lines += ["", "notes", *(f"  {note}" for note in m.notes)]
     return "\n".join(lines)

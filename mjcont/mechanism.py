@@ -18,15 +18,15 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from mjcont import loading, rigid
-from mjcont.errors import BoundsError, ParameterError, unknown_name
+from mjcont import features, loading, rigid
+from mjcont.errors import ParameterError, unknown_name
 from mjcont.evaluation import Evaluator
 from mjcont.mjcf import exact_text
 from mjcont.numerics.differences import CENTRED, PARAMETER, Stencil, jacobian_from_rows, jacobian_steps, stencil
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
 from mjcont.observables import model_observables
 from mjcont.parameters import Declaration, collect_parameters, make_parameter
-from mjcont.paths import is_bush
+from mjcont.paths import bush_names
 from mjcont.quantities import Observable, Parameter
 from mjcont.rows import one_sided
 from mjcont.writer import FieldWriter, Gravity
@@ -49,6 +49,8 @@ class Mechanism:
     declared : dict
         Parameters declared in Python or by path, as results store them.
     keyframes : dict of str to (nq,) array
+    notes : tuple of str
+        What is treated in a way that its user should know of: friction, activations.
     state_scale : (nv,) array
         1 rad for rotations, the model's size in metres for translations.
     mjcf : str or None
@@ -57,8 +59,10 @@ class Mechanism:
 
     second_order = True
 
-    def __init__(self, model: mujoco.MjModel, mjcf: str | None = None) -> None:
-        loading.refuse_unsupported(model)
+    def __init__(self, model: mujoco.MjModel, mjcf: str | None = None, friction: str = "frictionless") -> None:
+        features.refuse_unsupported(model)
+        self.notes = (*features.friction_notes(model, friction), *features.activation_notes(model))
+        model = loading.owned_copy(model)
         self.mjcf = mjcf
         self.name = loading.model_name(model)
         self.nq, self.n = model.nq, model.nv
@@ -83,8 +87,11 @@ class Mechanism:
     # -- making one ----------------------------------------------------------------------------------------
 
     @classmethod
-    def from_xml(cls, source: str | Path) -> Mechanism:
+    def from_xml(cls, source: str | Path, *, friction: str = "frictionless") -> Mechanism:
         """Load MJCF from a path, from XML text, or by the name of a model that ships with mjcont.
+
+        Friction carries no load at rest in MuJoCo, where it creeps. With `friction` "frictionless" it is left out of
+        equilibria and their stability, with a ModelWarning for dry friction; with "refuse" it is an error.
 
         Raises
         ------
@@ -93,18 +100,18 @@ class Mechanism:
         """
         text, folder = loading.read_source(source)
         spec = loading.parse(text, folder, str(source) if "<" not in str(source) else "XML text")
-        return cls(loading.compile_spec(spec), loading.portable_text(spec, text))
+        return cls(loading.compile_spec(spec), loading.portable_text(spec, text), friction)
 
     @classmethod
-    def from_spec(cls, spec: mujoco.MjSpec) -> Mechanism:
+    def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
         """Take an `MjSpec`; the spec itself is not kept."""
         model = loading.compile_spec(spec)
-        return cls(model, exact_text(spec))
+        return cls(model, exact_text(spec), friction)
 
     @classmethod
-    def from_model(cls, model: mujoco.MjModel) -> Mechanism:
+    def from_model(cls, model: mujoco.MjModel, *, friction: str = "frictionless") -> Mechanism:
         """Take a compiled model (copied). Its results cannot carry the MJCF: load them with `problem=`."""
-        return cls(loading.copy_model(model))
+        return cls(model, friction=friction)
 
     # -- parameters ----------------------------------------------------------------------------------------
 
@@ -143,15 +150,7 @@ class Mechanism:
         """
         given = given or {}
         for name, value in given.items():
-            parameter = self.parameter(name)
-            if not np.isfinite(value):
-                raise ParameterError(f"parameter '{name}': the value must be a finite number, got {value}")
-            low, high = parameter.hard_bounds
-            if not low <= value <= high:
-                raise BoundsError(
-                    f"{name} = {value:g} lies outside the actuator's ctrlrange [{low:g}, {high:g}], "
-                    "where MuJoCo would clamp it"
-                )
+            self.parameter(name).check(value)
         merged = {name: p.value for name, p in self.parameters.items()}
         merged.update({name: float(v) for name, v in given.items()})
         return merged
@@ -345,7 +344,7 @@ class Mechanism:
             self._sensor_writer.write(self.parameters, values if isinstance(values, Mapping) else values[i])
             data.qpos[:] = x
             data.qvel[:] = 0.0 if velocities is None else velocities[i]
-            data.ctrl[:] = self._sensor_writer.ctrl
+            self._sensor_writer.inputs.put(data)
             mujoco.mj_forward(self._observed, data)
             out[i] = [o.function(self._observed, data) for o in chosen]
         return out
@@ -368,16 +367,7 @@ class Mechanism:
         ParameterError
             If `state` has the wrong shape.
         """
-        if state is not None:
-            x = np.array(state, dtype=float)
-            if x.shape != (self.nq,):
-                raise ParameterError(f"state must have shape ({self.nq},) for model '{self.name}', got {x.shape}")
-            return x
-        if keyframe is None:
-            return self.qpos0.copy()
-        if keyframe not in self.keyframes:
-            raise unknown_name("keyframe", keyframe, self.keyframes)
-        return self.keyframes[keyframe].copy()
+        return loading.start_state(self, keyframe, state)
 
     @property
     def state_labels(self) -> list[tuple[str, str]]:
@@ -387,8 +377,7 @@ class Mechanism:
     @property
     def bushes(self) -> list[str]:
         """Names of the bush actuators."""
-        names = [mujoco.mj_id2name(self._model, mujoco.mjtObj.mjOBJ_ACTUATOR, i) for i in range(self._model.nu)]
-        return [n for i, n in enumerate(names) if is_bush(self._model, i)]
+        return bush_names(self._model)
 
     def __str__(self) -> str:
         """List what can be continued, what can be read, and where to start."""

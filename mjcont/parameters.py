@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import NameLookupError, ParameterError
+from mjcont.inputs import INPUT_FIELDS, actuator_of, limits, parameter_kind, setpoint_unit
 from mjcont.paths import controls, read_target, resolve_path
 from mjcont.quantities import Parameter, Target, default_bounds
 
@@ -93,30 +94,35 @@ def make_parameter(model: mujoco.MjModel, declaration: Declaration) -> Parameter
             f"(values from {values.min():g} to {values.max():g}); give each its own parameter, "
             "or factors and offsets that make them agree"
         )
-    kind = "control" if all(t.field == "ctrl" for t in targets) else "field"
+    kind = parameter_kind({t.field for t in targets})
     value = float(values[0]) + 0.0
-    bounds = declaration.bounds or default_bounds(value, declaration.unit)
-    hard = _control_range(model, targets) if kind == "control" else (-math.inf, math.inf)
-    return Parameter(declaration.name, declaration.unit, value, bounds, kind, targets, hard)
+    *hard, words = _input_range(model, targets)
+    bounds = (0.0, 1.0) if kind == "switch" else declaration.bounds or default_bounds(value, declaration.unit)
+    return Parameter(declaration.name, declaration.unit, value, bounds, kind, targets, (hard[0], hard[1]), words)
 
 
-def _control_range(model: mujoco.MjModel, targets: Sequence[Target]) -> tuple[float, float]:
-    """Return the range of values that no limited control would clamp."""
-    low, high = -math.inf, math.inf
-    for target in targets:
+def _input_range(model: mujoco.MjModel, targets: Sequence[Target]) -> tuple[float, float, str]:
+    """Return the range of values that MuJoCo would not clamp, and the words for it."""
+    low, high, words = -math.inf, math.inf, ""
+    for target in (t for t in targets if t.field in INPUT_FIELDS):
         for i in target.index:
-            if model.actuator_ctrllimited[i]:
-                ends = sorted((model.actuator_ctrlrange[i] - target.offset) / target.factor)
-                low, high = max(low, ends[0]), min(high, ends[1])
-    return float(low), float(high)
+            start, end, name = limits(model, target.field, i)
+            ends = sorted(((start - target.offset) / target.factor, (end - target.offset) / target.factor))
+            if ends[0] > low or ends[1] < high:
+                words = name
+            low, high = max(low, ends[0]), min(high, ends[1])
+    return low, high, words
 
 
-def control_parameter(model: mujoco.MjModel, name: str, index: int) -> Parameter:
-    """Return the parameter that every actuator's control is, by the actuator's name."""
-    target = Target("ctrl", (index,), path=f"control:{name}")
-    hard = _control_range(model, [target])
-    bounds = hard if np.all(np.isfinite(hard)) else (-1.0, 1.0)
-    return Parameter(name, "", 0.0, bounds, "control", (target,), hard)
+def control_parameter(model: mujoco.MjModel, name: str, field: str, index: int) -> Parameter:
+    """Return the parameter that every actuator's control, or integrated setpoint, is by the actuator's name."""
+    target = Target(field, (index,), path=f"control:{name}")
+    low, high, words = _input_range(model, [target])
+    unit = setpoint_unit(model, actuator_of(model, "act", index)) if field == "act" else ""
+    finite = math.isfinite(low) and math.isfinite(high)
+    bounds = (low, high) if finite else default_bounds(0.0, unit)
+    value = float(read_target(model, target)[0])
+    return Parameter(name, unit, value, bounds, parameter_kind({field}), (target,), (low, high), words)
 
 
 def gravity_parameters() -> list[Parameter]:
@@ -140,9 +146,9 @@ def collect_parameters(model: mujoco.MjModel) -> dict[str, Parameter]:
             found[declaration.name] = make_parameter(model, declaration)
         except NameLookupError as error:
             raise ParameterError(f"parameter '{declaration.name}': {error}") from error
-    for name, index in controls(model).items():
+    for name, (field, index) in controls(model).items():
         if name not in found:
-            found[name] = control_parameter(model, name, index)
+            found[name] = control_parameter(model, name, field, index)
     for parameter in gravity_parameters():
         found[parameter.name] = parameter
     return found

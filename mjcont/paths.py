@@ -2,7 +2,7 @@
 
 Their grammar is object:pattern.attribute[index]*factor+offset,
 
-with `object` one of joint, body, site, geom, tendon, actuator, equality, option, control.
+with `object` one of joint, body, site, geom, tendon, actuator, equality, mocap, option, control.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import ParameterError, unknown_name
+from mjcont.inputs import INPUT_FIELDS, actuator_name, integrator, loaded_inputs
 from mjcont.quantities import Target
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
@@ -28,14 +29,16 @@ _OBJECTS = {
     "site": ("site_", mujoco.mjtObj.mjOBJ_SITE, "nsite"),
     "geom": ("geom_", mujoco.mjtObj.mjOBJ_GEOM, "ngeom"),
     "tendon": ("tendon_", mujoco.mjtObj.mjOBJ_TENDON, "ntendon"),
-    "actuator": ("actuator_", mujoco.mjtObj.mjOBJ_ACTUATOR, "nu"),
+    "actuator": ("actuator_", mujoco.mjtObj.mjOBJ_ACTUATOR, "nactuator"),
     "equality": ("eq_", mujoco.mjtObj.mjOBJ_EQUALITY, "neq"),
+    "mocap": ("mocap_", mujoco.mjtObj.mjOBJ_BODY, "nbody"),
 }
 _PER_DOF = {"damping", "armature", "frictionloss"}
 _RENAMED = {
     ("tendon", "springlength"): "tendon_lengthspring",
     ("joint", "springref"): "qpos_spring",
 }
+_MOCAP_WIDTH = {"pos": 3, "quat": 4}
 _DERIVED_CONSTANTS = frozenset(mujoco.MjModel._setconst_inputs)
 
 
@@ -45,13 +48,25 @@ def is_bush(model: mujoco.MjModel, actuator: int) -> bool:
     return name.startswith("bush_") and not model.actuator_gainprm[actuator].any()
 
 
-def controls(model: mujoco.MjModel) -> dict[str, int]:
-    """Return the names of the actuators that a user can command, with their control index."""
-    found = {}
-    for i in range(model.nu):
-        name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, i) or f"actuator{i}"
-        if not is_bush(model, i):
-            found[name] = int(model.actuator_ctrladr[i])
+def bush_names(model: mujoco.MjModel) -> list[str]:
+    """Return the names of the bush actuators."""
+    return [actuator_name(model, i) for i in range(model.nactuator) if is_bush(model, i)]
+
+
+def controls(model: mujoco.MjModel) -> dict[str, tuple[str, int]]:
+    """Return what a user can command by name: controls, and the integrated setpoint where a control is integrated."""
+    found: dict[str, tuple[str, int]] = {}
+    for i in range(model.nactuator):
+        name, first = actuator_name(model, i), int(model.actuator_ctrladr[i])
+        if is_bush(model, i):
+            continue
+        if integrator(model, i):
+            found[name] = ("act", int(model.actuator_actadr[i]))
+        elif model.actuator_ctrlnum[i] == 1:
+            found[name] = ("ctrl", first)
+        else:
+            for k in range(model.actuator_ctrlnum[i]):
+                found[f"{name}.{mujoco.mj_actuatorInputName(model, i, k)}"] = ("ctrl", first + k)
     return found
 
 
@@ -83,6 +98,36 @@ def _field_entries(model: mujoco.MjModel, kind: str, attr: str, ids: Sequence[in
     return field, np.array([np.arange(i * width, (i + 1) * width) for i in ids], dtype=int)
 
 
+def _input_entries(
+    model: mujoco.MjModel, kind: str, attr: str, ids: Sequence[int]
+) -> tuple[str, np.ndarray] | None:
+    """Return what `_field_entries` does for inputs that live in MuJoCo's data, None for fields of the model."""
+    if kind == "equality" and attr == "active":
+        return "eq_active", np.array(ids, dtype=int).reshape(-1, 1)
+    if kind == "mocap":
+        if attr not in _MOCAP_WIDTH:
+            raise unknown_name("attribute of a mocap body", attr, _MOCAP_WIDTH)
+        width = _MOCAP_WIDTH[attr]
+        rows = [np.arange(width) + width * model.body_mocapid[i] for i in ids]
+        return f"mocap_{attr}", np.array(rows, dtype=int)
+    if kind == "body" and attr in _MOCAP_WIDTH and any(model.body_mocapid[i] >= 0 for i in ids):
+        names = [n for i, n in enumerate(element_names(model, "body")) if i in ids and model.body_mocapid[i] >= 0]
+        raise ParameterError(f"the {attr} of mocap body '{names[0]}' lives elsewhere: use mocap:{names[0]}.{attr}")
+    return None
+
+
+def _commands(model: mujoco.MjModel, pattern: str, factor: float, offset: float, path: str) -> list[Target]:
+    known = controls(model)
+    names = [n for n in known if fnmatch.fnmatchcase(n, pattern)]
+    if not names:
+        raise unknown_name("control", pattern, known)
+    by_field: dict[str, list[int]] = {}
+    for name in names:
+        field, index = known[name]
+        by_field.setdefault(field, []).append(index)
+    return [Target(field, tuple(index), factor, offset, path) for field, index in by_field.items()]
+
+
 def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
     """Turn a path into targets of this model.
 
@@ -101,11 +146,7 @@ def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
     if factor == 0.0:
         raise ParameterError(f"target '{path}': the factor must not be zero")
     if kind == "control":
-        known = controls(model)
-        names = [n for n in known if fnmatch.fnmatchcase(n, pattern)]
-        if not names:
-            raise unknown_name("control", pattern, known)
-        return [Target("ctrl", tuple(known[n] for n in names), factor, offset, path)]
+        return _commands(model, pattern + (f".{attr}" if attr else ""), factor, offset, path)
     if kind == "option":
         return [Target("opt." + pattern, _option_index(model, pattern, match["index"]), factor, offset, path)]
     if kind not in _OBJECTS:
@@ -113,11 +154,13 @@ def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
     if attr is None:
         raise ParameterError(f"target '{path}': an attribute is missing, as in {kind}:{pattern}.stiffness")
     names = element_names(model, kind)
+    if kind == "mocap":
+        names = [n if model.body_mocapid[i] >= 0 else "" for i, n in enumerate(names)]
     ids = [i for i, n in enumerate(names) if n and fnmatch.fnmatchcase(n, pattern)]
     if not ids:
         listing = ", ".join(n for n in names if n) or "none"
         raise ParameterError(f"target '{path}' matches no {kind} of the model. Its {kind} names: {listing}.")
-    field, entries = _field_entries(model, kind, attr, ids)
+    field, entries = _input_entries(model, kind, attr, ids) or _field_entries(model, kind, attr, ids)
     if match["index"] is not None:
         index = int(match["index"])
         if index >= entries.shape[1]:
@@ -144,9 +187,8 @@ def _option_index(model: mujoco.MjModel, attr: str, index: str | None) -> tuple[
 
 def read_target(model: mujoco.MjModel, target: Target) -> np.ndarray:
     """Return the parameter values that the target's entries imply, (len(index),)."""
-    if target.field == "ctrl":
-        return np.full(len(target.index), -target.offset / target.factor)
-    array = np.ravel(field_array(model, target.field))
+    owned = target.field in INPUT_FIELDS
+    array = np.ravel(loaded_inputs(model)[target.field] if owned else field_array(model, target.field))
     return (array[list(target.index)] - target.offset) / target.factor
 
 

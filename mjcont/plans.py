@@ -20,6 +20,7 @@ from mjcont.errors import MjcontError, StudyError, unknown_name
 from mjcont.loading import shipped_models
 from mjcont.mechanism import Mechanism
 from mjcont.numerics.settings import Settings
+from mjcont.quantities import FRICTION
 from mjcont.schema import Table
 
 STUDY_VERSION = 1
@@ -68,8 +69,8 @@ class Study:
     plots: tuple[PlotPlan, ...] = ()
 
 
-def load_study(path: str | Path) -> Study:
-    """Read a study file and check all of it, also against its model.
+def load_study(path: str | Path, *, friction: str | None = None) -> Study:
+    """Read a study file and check all of it, also against its model; `friction` comes before the file's own.
 
     Raises
     ------
@@ -77,12 +78,12 @@ def load_study(path: str | Path) -> Study:
         If anything is wrong: one line that names the file and the key, with the valid choices.
     """
     root = Table(str(path), _parse(Path(path)))
-    root.only("version", "model", "parameters", "declare", "branch", "plot")
+    root.only("version", "model", "friction", "parameters", "declare", "branch", "plot")
     version = root.integer("version", STUDY_VERSION)
     if version != STUDY_VERSION:
         raise root.error("version", f"this mjcont reads version {STUDY_VERSION}, the file has {version}")
     root.require("model", "branch")
-    mechanism = _load_model(root, Path(path).parent)
+    mechanism = _load_model(root, Path(path).parent, friction)
     declare = root.table("declare")
     for name in declare.data:
         _declare(declare, name, mechanism)
@@ -122,13 +123,16 @@ def _named(table: Table, key: str) -> Iterator[None]:
         raise table.error(key, error) from error
 
 
-def _load_model(root: Table, folder: Path) -> Mechanism:
-    name = root.text("model")
+def _load_model(root: Table, folder: Path, friction: str | None) -> Mechanism:
+    name, asked = root.text("model"), root.text("friction", FRICTION[0])
+    if asked not in FRICTION:
+        raise root.error("friction", unknown_name("choice", asked, FRICTION))
+    friction = friction or asked
     beside = folder / name
     with _named(root, "model"):
         if not beside.is_file() and name in shipped_models():
-            return Mechanism.from_xml(name)
-        return Mechanism.from_xml(beside)
+            return Mechanism.from_xml(name, friction=friction)
+        return Mechanism.from_xml(beside, friction=friction)
 
 
 def _declare(declare: Table, name: str, mechanism: Mechanism) -> None:

@@ -7,10 +7,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from mjcont.errors import BoundsError, ParameterError
+
+FRICTION = ("frictionless", "refuse")
+
 # fields in which the forces are affine, so that two points give an exact derivative
 _AFFINE = frozenset(
     {
         "ctrl",
+        "act",
         "jnt_stiffness",
         "dof_damping",
         "qpos_spring",
@@ -20,7 +25,7 @@ _AFFINE = frozenset(
         "actuator_gainprm",
     }
 )
-_PRODUCTS = ({"jnt_stiffness", "qpos_spring"}, {"ctrl", "actuator_gainprm"})
+_PRODUCTS = ({"jnt_stiffness", "qpos_spring"}, {"ctrl", "actuator_gainprm"}, {"act", "actuator_gainprm"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +54,15 @@ class Parameter:
         Its value in the loaded model (SI, radians).
     bounds : tuple of float
         Where the parameter makes sense; the default range of a continuation.
-    kind : {"control", "gravity", "field"}
+    kind : {"control", "input", "switch", "gravity", "field"}
+        A control; another input that lives in MuJoCo's data (an integrated setpoint, a mocap pose); equality
+        constraints on or off; gravity; or a field of the model.
     targets : tuple of Target
         Empty for gravity_angle and load_factor, which act together on the gravity vector.
     hard_bounds : tuple of float
-        A control's range in MuJoCo, outside which it would be clamped.
+        An input's range in MuJoCo, outside which it would be clamped.
+    limit : str
+        The words for that range.
     """
 
     name: str
@@ -63,6 +72,7 @@ class Parameter:
     kind: str
     targets: tuple[Target, ...] = ()
     hard_bounds: tuple[float, float] = (-math.inf, math.inf)
+    limit: str = ""
 
     @property
     def affine(self) -> bool:
@@ -78,6 +88,18 @@ class Parameter:
         found = {(t.field, i) for t in self.targets for i in t.index}
         scaled = {("body_inertia", 3 * i + k) for field, i in found if field == "body_mass" for k in range(3)}
         return frozenset(found | scaled)
+
+    def check(self, value: float) -> None:
+        """Raise unless the model can have this value: ParameterError, or BoundsError where MuJoCo would clamp it."""
+        if not math.isfinite(value):
+            raise ParameterError(f"parameter '{self.name}': the value must be a finite number, got {value}")
+        if self.kind == "switch" and value not in (0.0, 1.0):
+            raise ParameterError(f"parameter '{self.name}' is a switch: its value must be 0 or 1, got {value:g}")
+        low, high = self.hard_bounds
+        if not low <= value <= high:
+            raise BoundsError(
+                f"{self.name} = {value:g} lies outside {self.limit} [{low:g}, {high:g}], where MuJoCo would clamp it"
+            )
 
     @property
     def needs_constants(self) -> bool:

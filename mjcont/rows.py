@@ -21,18 +21,17 @@ class Rows:
         self._version = -1
         self._qpos = self._batch.bind("qpos")
         self._qvel = self._batch.bind("qvel")
-        self._ctrl = self._batch.bind("ctrl")
         self._forces = self._batch.bind("qfrc_smooth")
         self._acceleration = self._batch.bind("qacc")
 
     def forward(self, qpos: Array, qvel: Array | None, writer: FieldWriter) -> Array:
-        """Evaluate the rows' states with the writer's controls and return qfrc_smooth, a live view (m, nv)."""
+        """Evaluate the rows' states with the writer's inputs and return qfrc_smooth, a live view (m, nv)."""
         if self._version != writer.version:
             self._batch.set_models(self._model)
             self._version = writer.version
         self._qpos[:] = qpos
         self._qvel[:] = 0.0 if qvel is None else qvel
-        self._ctrl[:] = writer.ctrl
+        writer.inputs.put_rows(self._batch)
         self._batch.forward()
         return self._forces
 
@@ -46,7 +45,8 @@ class ConstrainedRows:
 
     MuJoCo's constraint forces depend on the acceleration; at rest and in equilibrium it is zero, so equilibria are
     where the inverse dynamics at zero acceleration ask for no force. One row after the other: the batch has no
-    inverse dynamics.
+    inverse dynamics. Friction of contacts is left out: at rest MuJoCo's has no force, but it would add to mass and
+    damping, and call stable what only creeps.
     """
 
     def __init__(self, model: mujoco.MjModel) -> None:
@@ -59,7 +59,7 @@ class ConstrainedRows:
         m, d = self._model, self._data
         out = np.empty((len(qpos), m.nv))
         self.sides = []
-        d.ctrl[:] = writer.ctrl
+        writer.inputs.put(d)
         for i, x in enumerate(qpos):
             d.qpos[:] = x
             d.qvel[:] = 0.0 if qvel is None else qvel[i]
@@ -68,13 +68,15 @@ class ConstrainedRows:
             self.sides.append(_side(d))
             mujoco.mj_fwdActuation(m, d)
             out[i] = d.qfrc_actuator - d.qfrc_inverse
+            if d.ncon and (qvel is not None or qacc is not None):
+                out[i] -= _contact_friction(m, d)
         return out
 
     def accelerations(self, qpos: Array, qvel: Array, writer: FieldWriter) -> Array:
         """Return qacc for every row, (m, nv)."""
         m, d = self._model, self._data
         out = np.empty((len(qpos), m.nv))
-        d.ctrl[:] = writer.ctrl
+        writer.inputs.put(d)
         for i, x in enumerate(qpos):
             d.qpos[:], d.qvel[:], d.qacc_warmstart[:] = x, qvel[i], 0.0
             mujoco.mj_forward(m, d)
@@ -84,10 +86,27 @@ class ConstrainedRows:
     def active(self, x: Array, writer: FieldWriter) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""
         m, d = self._model, self._data
-        d.ctrl[:] = writer.ctrl
+        writer.inputs.put(d)
         d.qpos[:], d.qvel[:], d.qacc[:] = x, 0.0, 0.0
         mujoco.mj_inverse(m, d)
         return frozenset(_loaded(m, d))
+
+
+def _contact_friction(m: mujoco.MjModel, d: mujoco.MjData) -> Array:
+    """Return the part of the contact forces that does not act along the normals, as generalised forces (nv,)."""
+    along = np.zeros(d.nefc)
+    elliptic = m.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+    for first, dim in zip(d.contact.efc_address, d.contact.dim, strict=True):
+        if first < 0 or dim == 1:
+            continue
+        if elliptic:
+            along[first + 1 : first + dim] = d.efc_force[first + 1 : first + dim]
+        else:  # a pyramid's edges come in pairs that share the normal force
+            pairs = d.efc_force[first : first + 2 * (dim - 1)].reshape(-1, 2)
+            along[first : first + 2 * (dim - 1)] = (pairs - pairs.mean(axis=1, keepdims=True)).ravel()
+    out = np.zeros(m.nv)
+    mujoco.mj_mulJacTVec(m, d, out, along)
+    return out
 
 
 def _side(d: mujoco.MjData) -> bytes:

@@ -21,6 +21,7 @@ import json
 import math
 import os
 import tempfile
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -29,7 +30,7 @@ import h5py
 import numpy as np
 
 from mjcont.branch import Branch, Column, Point, SpecialPoint
-from mjcont.errors import MjcontError, ResultFileError
+from mjcont.errors import MjcontError, ModelWarning, ResultFileError
 
 FORMAT_VERSION = 1
 # What h5py, json and our own reading raise on files with parts missing or overwritten.
@@ -153,7 +154,9 @@ def _read(f: h5py.File, problem: Any) -> Branch:
     if problem is None and "model" in f:
         from mjcont.mechanism import Mechanism
 
-        problem = Mechanism.from_xml(f["model"].asstr()[()])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ModelWarning)  # said when the result was computed
+            problem = Mechanism.from_xml(f["model"].asstr()[()])
         for name, given in json.loads(f.attrs["declared"]).items():
             problem.declare(name, *given["paths"], unit=given["unit"], bounds=given["bounds"])
     columns = {}

@@ -36,7 +36,7 @@ def posed(mechanism: Mechanism, state: Array, values: Mapping[str, float]) -> tu
     writer.write(mechanism.parameters, mechanism.values(values))
     data = mujoco.MjData(model)
     data.qpos[:] = state
-    data.ctrl[:] = writer.ctrl
+    writer.inputs.begin(data)
     mujoco.mj_forward(model, data)
     return model, data
 

@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import ParameterError, unknown_name
+from mjcont.inputs import INPUT_FIELDS, DataInputs
 from mjcont.parameters import GRAVITY_ANGLE, LOAD_FACTOR, setting
 from mjcont.paths import field_array
 from mjcont.quantities import Parameter
@@ -42,7 +43,7 @@ class Gravity:
 
 
 class FieldWriter:
-    """Writes parameter values into one model (and the control vector), touching only what changed.
+    """Writes parameter values into one model and into `inputs` (what lives in its data), touching only what changed.
 
     What is written depends on the values alone, not on what was written before: a parameter at the model's own value
     leaves its entries as loaded, and where several act on one entry, the last declared of the others decides.
@@ -51,7 +52,7 @@ class FieldWriter:
     def __init__(self, model: mujoco.MjModel, parameters: Mapping[str, Parameter], gravity: Gravity) -> None:
         self.model = model
         self.gravity = gravity
-        self.ctrl = np.zeros(model.nu)
+        self.inputs = DataInputs(model)
         self.version = 0
         self._data = mujoco.MjData(model)
         self._loaded: dict[str, np.ndarray] = {
@@ -94,7 +95,8 @@ class FieldWriter:
                 if written.get(parameter.name, parameter.value) != parameter.value:
                     self._apply(parameter)
             constants |= any(p.needs_constants for p in members)
-            model_changed |= any(p.kind != "control" for p in members)
+            model_changed |= any(p.kind in ("field", "switch", "gravity") for p in members)
+        self.inputs.settle()
         if constants:
             mujoco.mj_setConst(self.model, self._data)
         self.version += model_changed
@@ -119,8 +121,8 @@ class FieldWriter:
             self.model.opt.gravity[:] = self.gravity.g0
         for target in parameter.targets:
             index = list(target.index)
-            if target.field == "ctrl":
-                self.ctrl[index] = 0.0
+            if target.field in INPUT_FIELDS:
+                self.inputs.write(target.field, index, self.inputs.loaded[target.field].reshape(-1)[index])
                 continue
             array = field_array(self.model, target.field)
             if target.field not in self._loaded:
@@ -137,8 +139,8 @@ class FieldWriter:
         for target in parameter.targets:
             index = list(target.index)
             entry = target.offset + target.factor * written[parameter.name]
-            if target.field == "ctrl":
-                self.ctrl[index] = entry
+            if target.field in INPUT_FIELDS:
+                self.inputs.write(target.field, index, entry)
                 continue
             self._put(target.field, index, entry)
             if target.field == "body_mass":

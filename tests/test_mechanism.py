@@ -104,15 +104,6 @@ SPHERE = '<geom type="sphere" size="0.1" pos="0 0 1"/>'
 REFUSED = {
     "sleep": ({"flag": 'sleep="enable"'}, "sleeping bodies make equilibria path dependent"),
     "plastic spring": ({"joint": 'stiffness="1" springyield="0.1"'}, r"plastic springs \(springyield\)"),
-    "activation": (
-        {"actuator": '<general joint="hip" dyntype="integrator"/>'},
-        r"actuators with activation states \(muscle, filter, integrator\) are not supported yet",
-    ),
-    "joint friction": ({"joint": 'frictionloss="1"'}, "dry friction .* carries no load at rest"),
-    "tendon friction": (
-        {"rest": '<tendon><fixed frictionloss="1"><joint joint="hip" coef="1"/></fixed></tendon>'},
-        "dry friction .* carries no load at rest",
-    ),
 }
 
 

@@ -148,7 +148,7 @@ def _pins(scene: Scene) -> Iterator[Pin]:
             letter = _letter(scene, [*(names[i] for i in slides), names[j]], at, (body, parent))
             yield Pin(letter or names[j], at, other, bool(elastic), scene.on_ground(parent))
     pairs: dict[tuple[int, int], list[int]] = {}
-    for i in range(m.nu):
+    for i in range(m.nactuator):
         if is_bush(m, i) and m.actuator_trntype[i] == _TRANSMISSION.mjTRN_SITE:
             pairs.setdefault((int(m.actuator_trnid[i, 0]), int(m.actuator_trnid[i, 1])), []).append(i)
     for (site, refsite), actuators in pairs.items():

@@ -1,0 +1,159 @@
+"""What acts on a model through MuJoCo's data: controls, activations at rest, mocap poses, equality switches.
+
+At rest an activation is no unknown. A filter or muscle, act' = (ctrl - act) / tau, has act = ctrl; an integrator,
+act' = ctrl, rests at any value under zero control, and that value is its parameter.
+"""
+
+from __future__ import annotations
+
+import math
+
+import mujoco
+import numpy as np
+from mujoco.batch import Batch
+
+_DYN = mujoco.mjtDyn
+_FOLLOWS = (_DYN.mjDYN_FILTER, _DYN.mjDYN_FILTEREXACT, _DYN.mjDYN_MUSCLE)
+INPUT_FIELDS = frozenset({"ctrl", "act", "mocap_pos", "mocap_quat", "eq_active"})
+
+
+def follower(model: mujoco.MjModel, actuator: int) -> bool:
+    """Whether the actuator's activation comes to rest at its control."""
+    return bool(model.actuator_actnum[actuator] == 1 and _DYN(model.actuator_dyntype[actuator]) in _FOLLOWS)
+
+
+def integrator(model: mujoco.MjModel, actuator: int) -> bool:
+    """Whether the actuator's activation is the integral of its control."""
+    integrates = _DYN(model.actuator_dyntype[actuator]) == _DYN.mjDYN_INTEGRATOR
+    return bool(model.actuator_actnum[actuator] == 1 and integrates)
+
+
+def actuator_name(model: mujoco.MjModel, actuator: int) -> str:
+    """Return an actuator's name, made up if it has none."""
+    return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, actuator) or f"actuator{actuator}"
+
+
+def actuator_of(model: mujoco.MjModel, field: str, index: int) -> int:
+    """Return the actuator that a control or an activation belongs to."""
+    first = model.actuator_ctrladr if field == "ctrl" else model.actuator_actadr
+    count = model.actuator_ctrlnum if field == "ctrl" else model.actuator_actnum
+    return int(np.flatnonzero((first >= 0) & (first <= index) & (index < first + count))[0])
+
+
+def limits(model: mujoco.MjModel, field: str, index: int) -> tuple[float, float, str]:
+    """Return the range of an input outside which MuJoCo would clamp it, and the words for that range."""
+    if field == "eq_active":
+        return 0.0, 1.0, "the switch's range"
+    if field not in ("ctrl", "act"):
+        return -math.inf, math.inf, ""
+    a = actuator_of(model, field, index)
+    ranges = []
+    if field == "ctrl" and model.actuator_ctrllimited[index]:
+        ranges.append((*model.actuator_ctrlrange[index], "ctrlrange"))
+    if (field == "act" or follower(model, a)) and model.actuator_actlimited[a]:
+        ranges.append((*model.actuator_actrange[a], "actrange"))
+    if field == "ctrl" and _DYN(model.actuator_dyntype[a]) == _DYN.mjDYN_MUSCLE:
+        ranges.append((0.0, 1.0, "muscle's range"))
+    low = max((float(r[0]) for r in ranges), default=-math.inf)
+    high = min((float(r[1]) for r in ranges), default=math.inf)
+    named = list(dict.fromkeys(str(r[2]) for r in ranges)) or ["ctrlrange"]
+    return low, high, "the actuator's " + " and ".join(named)
+
+
+def loaded_inputs(model: mujoco.MjModel) -> dict[str, np.ndarray]:
+    """Return the inputs of the model as loaded: no control, clamped as MuJoCo would, at rest."""
+    mocap = np.flatnonzero(model.body_mocapid >= 0)[np.argsort(model.body_mocapid[model.body_mocapid >= 0])]
+    found = {
+        "ctrl": np.array([np.clip(0.0, *limits(model, "ctrl", i)[:2]) for i in range(model.nu)]),
+        "act": np.zeros(model.na),
+        "mocap_pos": model.body_pos[mocap].copy(),
+        "mocap_quat": model.body_quat[mocap].copy(),
+        "eq_active": model.eq_active0.astype(float),
+    }
+    for a in range(model.nactuator):
+        if integrator(model, a):
+            i = int(model.actuator_actadr[a])
+            found["ctrl"][model.actuator_ctrladr[a]] = 0.0
+            found["act"][i] = np.clip(0.0, *limits(model, "act", i)[:2])
+    return found
+
+
+class DataInputs:
+    """The inputs of one model, and the one place that puts them into MuJoCo's data."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self._model = model
+        self.loaded = loaded_inputs(model)
+        self._fields = {name: array.copy() for name, array in self.loaded.items()}
+        self._present = [(name, array) for name, array in self._fields.items() if array.size]
+        followers = [a for a in range(model.nactuator) if follower(model, a)]
+        self._follow = model.actuator_actadr[followers], model.actuator_ctrladr[followers]
+        held = [a for a in range(model.nactuator) if integrator(model, a)]
+        self._held = model.actuator_actadr[held]
+        self._delayed = [a for a in range(model.nactuator) if model.actuator_delay[a] > 0]
+        self.settle()
+
+    @property
+    def ctrl(self) -> np.ndarray:
+        """The controls, (nu,)."""
+        return self._fields["ctrl"]
+
+    @property
+    def delayed(self) -> bool:
+        """Whether a control reaches its actuator late."""
+        return bool(self._delayed)
+
+    def write(self, field: str, index: list[int], entry: float | np.ndarray) -> None:
+        """Set entries of a flattened field."""
+        self._fields[field].reshape(-1)[index] = entry
+
+    def settle(self) -> None:
+        """Let activations follow their controls, as they do at rest."""
+        activations, controls = self._follow
+        self._fields["act"][activations] = self.ctrl[controls]
+
+    def put(self, data: mujoco.MjData) -> None:
+        """Put the inputs into data, activations at rest."""
+        for name, array in self._present:
+            getattr(data, name)[:] = array
+
+    def put_rows(self, batch: Batch) -> None:
+        """Put the inputs into every row of a batch, activations at rest."""
+        for name, array in self._present:
+            batch.bind(name)[:] = array
+
+    def begin(self, data: mujoco.MjData) -> None:
+        """Put the inputs into data from which a motion begins: they have been so for long."""
+        self.put(data)
+        for a in self._delayed:
+            first, count = int(self._model.actuator_ctrladr[a]), int(self._model.actuator_ctrlnum[a])
+            samples = int(self._model.actuator_history[a, 0])
+            steady = np.tile(self.ctrl[first : first + count], (samples, 1))
+            mujoco.mj_initCtrlHistory(self._model, data, a, None, steady)
+
+    def drive(self, data: mujoco.MjData) -> None:
+        """Put the inputs into data in motion: activations that follow a control keep their own course."""
+        for name, array in self._present:
+            if name == "act":
+                data.act[self._held] = array[self._held]
+            else:
+                getattr(data, name)[:] = array
+
+
+def parameter_kind(fields: set[str]) -> str:
+    """Return the kind of a parameter that acts on these fields."""
+    if "eq_active" in fields:
+        return "switch"
+    if fields == {"ctrl"}:
+        return "control"
+    return "input" if fields <= INPUT_FIELDS else "field"
+
+
+def setpoint_unit(model: mujoco.MjModel, actuator: int) -> str:
+    """Return the unit of an integrated setpoint: that of the joint it positions, else none."""
+    joint = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
+    servo = model.actuator_gainprm[actuator, 0] == -model.actuator_biasprm[actuator, 1] != 0.0
+    if not (servo and mujoco.mjtTrn(model.actuator_trntype[actuator]) in joint):
+        return ""
+    kind = mujoco.mjtJoint(model.jnt_type[model.actuator_trnid[actuator, 0]])
+    return {mujoco.mjtJoint.mjJNT_SLIDE: "m", mujoco.mjtJoint.mjJNT_HINGE: "rad"}.get(kind, "")
