@@ -219,7 +219,7 @@ class _Run:
         states, velocities = [self.x.copy()], [self.v.copy()]
         for k in range(self.count):
             t = (k + 0.5) * self.model.opt.timestep
-            writer.write(self.mechanism.parameters, {n: f(t) for n, f in self.functions.items()})
+            writer.write(self.mechanism.parameters, {**self.values, **{n: f(t) for n, f in self.functions.items()}})
             writer.inputs.drive(data)
             mujoco.mj_step(self.model, data)
             if (k + 1) % self.every == 0:
