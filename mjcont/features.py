@@ -55,7 +55,10 @@ def _refuse_actuator(model: mujoco.MjModel, actuator: int) -> None:
             f"actuator '{name}' (dcmotor) has electrical, thermal, friction or controller states, whose rest depends "
             "on the motion. Leave out what makes them (inductance, thermal, lugre, integral gain): it is then static"
         )
-    raise ModelError(f"actuator '{name}' has more activation states than one: give it actdim 1, or make it a motor")
+    raise ModelError(
+        f"actuator '{name}' has activation states of its own (a plugin's, or more than one), whose rest is unknown: "
+        "leave out what makes them, or make it a motor or a position servo"
+    )
 
 
 def friction_notes(model: mujoco.MjModel, friction: str) -> list[str]:
@@ -80,7 +83,7 @@ def friction_notes(model: mujoco.MjModel, friction: str) -> list[str]:
                 '(friction="frictionless")'
             )
         notes.append(f"{what}: equilibria and their stability are those without it; time histories keep it")
-        warnings.warn(notes[-1], ModelWarning, stacklevel=5)
+        warnings.warn(notes[-1], ModelWarning, stacklevel=4)
     if contacts:
         what = f"friction of contacts ({_listing(contacts)}) carries no load at rest in MuJoCo, where it creeps"
         if friction == "refuse":
