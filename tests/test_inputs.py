@@ -219,7 +219,8 @@ def test_a_mocap_body_turns_what_it_carries():
         <site name="lug" pos="2 0 0"/></body>
         <body><joint name="hip" axis="0 -1 0" damping="1"/><site name="tip" pos="1 0 0"/>
         <inertial pos="1 0 0" mass="1" diaginertia="0.01 0.01 0.01"/></body></worldbody>
-        <tendon><spatial stiffness="30" springlength="0"><site site="lug"/><site site="tip"/></spatial></tendon></mujoco>"""
+        <tendon><spatial stiffness="30" springlength="0"><site site="lug"/><site site="tip"/></spatial></tendon>
+        </mujoco>"""
     )
     mechanism.parameter("mocap:base.quat[2]")
     point = mc.find_equilibrium(mechanism, {"mocap:base.quat[2]": -math.tan(0.3)})
