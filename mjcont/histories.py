@@ -185,7 +185,7 @@ class _Run:
         """Step in MuJoCo's own loop, for inputs that are controls."""
         writer = self._writer()
         batch = Batch(self.model, 1, nthread=1)
-        writer.inputs.put_rows(batch)
+        writer.inputs.put_rows(writer.inputs.bound(batch))
         batch.qpos, batch.qvel = self.x, self.v
         states, velocities = [self.x[None]], [self.v[None]]
         chunk = max(self.every, _CHUNK // self.every * self.every)

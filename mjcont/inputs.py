@@ -53,7 +53,7 @@ def limits(model: mujoco.MjModel, field: str, index: int) -> tuple[float, float,
     if (field == "act" or follower(model, a)) and model.actuator_actlimited[a]:
         ranges.append((*model.actuator_actrange[a], "actrange"))
     if field == "ctrl" and _DYN(model.actuator_dyntype[a]) == _DYN.mjDYN_MUSCLE:
-        ranges.append((0.0, 1.0, "muscle's range"))
+        ranges.append((0.0, 1.0, "muscle range"))
     low = max((float(r[0]) for r in ranges), default=-math.inf)
     high = min((float(r[1]) for r in ranges), default=math.inf)
     named = list(dict.fromkeys(str(r[2]) for r in ranges)) or ["ctrlrange"]
@@ -117,10 +117,14 @@ class DataInputs:
         for name, array in self._present:
             getattr(data, name)[:] = array
 
-    def put_rows(self, batch: Batch) -> None:
+    def bound(self, batch: Batch) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Return where in a batch each input belongs, with the input: `put_rows` needs it, and a loop keeps it."""
+        return [(batch.bind(name), array) for name, array in self._present]
+
+    def put_rows(self, bound: list[tuple[np.ndarray, np.ndarray]]) -> None:
         """Put the inputs into every row of a batch, activations at rest."""
-        for name, array in self._present:
-            batch.bind(name)[:] = array
+        for view, array in bound:
+            view[:] = array
 
     def begin(self, data: mujoco.MjData) -> None:
         """Put the inputs into data from which a motion begins: they have been so for long."""

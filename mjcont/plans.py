@@ -178,6 +178,7 @@ def _branch(table: Table, mechanism: Mechanism, common: Mapping[str, float]) -> 
         raise table.error("name", f"'{name}' names a file: use letters, digits, '-', '_' and '.' only")
     with _named(table, "parameter"):
         unit = mechanism.parameter(parameter).unit
+        check_bounds(mechanism, parameter, None)
     bounds = _pair(table, unit)
     with _named(table, "bounds"):
         low, high = check_bounds(mechanism, parameter, bounds)

@@ -21,6 +21,7 @@ class Rows:
         self._version = -1
         self._qpos = self._batch.bind("qpos")
         self._qvel = self._batch.bind("qvel")
+        self._inputs: list[tuple[Array, Array]] | None = None
         self._forces = self._batch.bind("qfrc_smooth")
         self._acceleration = self._batch.bind("qacc")
 
@@ -31,7 +32,9 @@ class Rows:
             self._version = writer.version
         self._qpos[:] = qpos
         self._qvel[:] = 0.0 if qvel is None else qvel
-        writer.inputs.put_rows(self._batch)
+        if self._inputs is None:
+            self._inputs = writer.inputs.bound(self._batch)
+        writer.inputs.put_rows(self._inputs)
         self._batch.forward()
         return self._forces
 

@@ -207,7 +207,7 @@ def test_an_interrupt_while_a_branch_runs_stores_its_points(
 def test_an_interrupt_elsewhere_is_one_line(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def interrupted(*_: object) -> None:
+    def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr("mjcont.study.load_study", interrupted)

@@ -135,7 +135,7 @@ def test_a_muscle_moves_to_the_equilibrium_of_its_control():
 
 
 def test_a_muscle_takes_no_more_than_full_excitation():
-    with pytest.raises(mc.BoundsError, match=r"u = 1\.2 lies outside the actuator's muscle's range \[0, 1\]"):
+    with pytest.raises(mc.BoundsError, match=r"u = 1\.2 lies outside the actuator's muscle range \[0, 1\]"):
         slider(MUSCLE).values({"u": 1.2})
 
 
@@ -339,3 +339,11 @@ def test_other_values_stay_while_a_field_of_the_model_varies_in_time():
     inputs = {"joint:z.stiffness": ([0.0, 1.0], [100.0, 200.0])}
     history = mc.simulate(mechanism, inputs, duration=5.0, start={"u": 4.0})
     assert history["z"][-1] == pytest.approx((4.0 - WEIGHT) / 200, abs=1e-6)
+
+
+def test_a_study_that_would_vary_a_switch_is_told_where(tmp_path):
+    (tmp_path / "latch.xml").write_text(latched().mjcf, encoding="utf-8")
+    branch = '[[branch]]\nname = "a"\nparameter = "equality:latch.active"\n'
+    (tmp_path / "latch.toml").write_text(f'model = "latch.xml"\n{branch}', encoding="utf-8")
+    with pytest.raises(mc.StudyError, match=r"branch\[0\]\.parameter: 'equality:latch\.active' is a switch"):
+        mc.load_study(tmp_path / "latch.toml")
