@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
+from mjcont.equalities import describe_equalities
 from mjcont.errors import ModelError
 from mjcont.mjcf import exact_text
 from mjcont.observables import without_sensor_filters
@@ -97,6 +98,10 @@ def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     private = copy_model(model)
     if model.opt.disableflags & _DISABLE.mjDSBL_CLAMPCTRL:
         private.actuator_ctrllimited[:] = 0
+    # time histories with "discrete" clamp no equality's time constant, those with other integrators do
+    if np.any((model.eq_solref[:, 0] > 0) & (model.eq_solref[:, 0] < 2.0 * model.opt.timestep)):
+        if model.opt.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE:
+            private.opt.disableflags |= int(_DISABLE.mjDSBL_REFSAFE)
     private.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     private.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
     private.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # sparse constraint Jacobians are wrong in MuJoCo 4.0.0
@@ -229,5 +234,7 @@ def describe(mechanism: Mechanism) -> str:
         rows.append([o.name, _number(v, o.unit).removesuffix(" deg"), "deg" if o.unit == "rad" else o.unit])
     lines += ["", "observables", *_table(rows)]
     lines += ["", "structure", *describe_topology(m.simulation_model())]
+    if springs := describe_equalities(m.simulation_model()):
+        lines += ["", "constraints as springs", *springs]
     lines += ["", "starts", "  qpos0", *(f"  keyframe {k}" for k in m.keyframes)]
     return "\n".join(lines)

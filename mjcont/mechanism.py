@@ -148,10 +148,7 @@ class Mechanism:
                 raise ParameterError(f"parameter '{name}': the value must be a finite number, got {value}")
             low, high = parameter.hard_bounds
             if not low <= value <= high:
-                raise BoundsError(
-                    f"{name} = {value:g} lies outside the actuator's ctrlrange [{low:g}, {high:g}], "
-                    "where MuJoCo would clamp it"
-                )
+                raise BoundsError(f"{name} = {value:g} lies outside {parameter.limits}")
         merged = {name: p.value for name, p in self.parameters.items()}
         merged.update({name: float(v) for name, v in given.items()})
         return merged
@@ -206,6 +203,8 @@ class Mechanism:
         """
         parameter = self.parameters[name]
         size = max(abs(value), 1e-2 * (span or parameter.bounds[1] - parameter.bounds[0]))
+        if parameter.springs:  # a step must not lead to a negative stiffness, which MuJoCo has not
+            return (CENTRED, 0.1 * abs(value)) if parameter.affine else (PARAMETER, PARAMETER.step * abs(value))
         if parameter.affine:
             return CENTRED, max(1.0, abs(value)) if parameter.kind == "control" else 0.1 * size
         if parameter.unit == "rad":

@@ -95,9 +95,22 @@ def make_parameter(model: mujoco.MjModel, declaration: Declaration) -> Parameter
         )
     kind = "control" if all(t.field == "ctrl" for t in targets) else "field"
     value = float(values[0]) + 0.0
-    bounds = declaration.bounds or default_bounds(value, declaration.unit)
-    hard = _control_range(model, targets) if kind == "control" else (-math.inf, math.inf)
-    return Parameter(declaration.name, declaration.unit, value, bounds, kind, targets, hard)
+    units = {t.unit for t in targets}
+    unit = declaration.unit or (units.pop() if len(units) == 1 else "")
+    several_decades = (1e-4 * value, 1e4 * value) if targets[0].loaded is not None and value > 0 else None
+    bounds = declaration.bounds or several_decades or default_bounds(value, unit)
+    hard = _control_range(model, targets) if kind == "control" else _positive(targets)
+    return Parameter(declaration.name, unit, value, bounds, kind, targets, hard)
+
+
+def _positive(targets: Sequence[Target]) -> tuple[float, float]:
+    """Return the range of values that keeps every constraint's stiffness positive."""
+    low, high = -math.inf, math.inf
+    for t in targets:
+        if t.loaded is not None:
+            end = (np.finfo(float).tiny - t.offset) / t.factor
+            low, high = (max(low, end), high) if t.factor > 0 else (low, min(high, end))
+    return low, high
 
 
 def _control_range(model: mujoco.MjModel, targets: Sequence[Target]) -> tuple[float, float]:

@@ -2,7 +2,8 @@
 
 Their grammar is object:pattern.attribute[index]*factor+offset,
 
-with `object` one of joint, body, site, geom, tendon, actuator, equality, option, control.
+with `object` one of joint, body, site, geom, tendon, actuator, equality, option, control. `equality:NAME.stiffness` is
+no field but the effective stiffness of a constraint (see equalities.py).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
+from mjcont.equalities import stiffness_targets
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.quantities import Target
 
@@ -72,6 +74,7 @@ def _field_entries(model: mujoco.MjModel, kind: str, attr: str, ids: Sequence[in
         starts = (prefix, "dof_") if kind == "joint" else (prefix,)
         fields = [f for f in dir(model) if f.startswith(starts) and _is_continuous(getattr(model, f))]
         valid = {f.split("_", 1)[1] for f in fields} | {a for k, a in _RENAMED if k == kind}
+        valid |= {"stiffness"} if kind == "equality" else set()
         raise unknown_name(f"attribute of a {kind}", attr, valid)
     assert array is not None
     if field.startswith("dof_"):
@@ -117,6 +120,8 @@ def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
     if not ids:
         listing = ", ".join(n for n in names if n) or "none"
         raise ParameterError(f"target '{path}' matches no {kind} of the model. Its {kind} names: {listing}.")
+    if (kind, attr, match["index"]) == ("equality", "stiffness", None):
+        return stiffness_targets(model, ids, factor, offset, path)
     field, entries = _field_entries(model, kind, attr, ids)
     if match["index"] is not None:
         index = int(match["index"])
@@ -146,6 +151,8 @@ def read_target(model: mujoco.MjModel, target: Target) -> np.ndarray:
     """Return the parameter values that the target's entries imply, (len(index),)."""
     if target.field == "ctrl":
         return np.full(len(target.index), -target.offset / target.factor)
+    if target.loaded is not None:
+        return np.full(len(target.index), (target.loaded - target.offset) / target.factor)
     array = np.ravel(field_array(model, target.field))
     return (array[list(target.index)] - target.offset) / target.factor
 

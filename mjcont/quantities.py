@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from mjcont.errors import ParameterError
+
 # fields in which the forces are affine, so that two points give an exact derivative
 _AFFINE = frozenset(
     {
@@ -25,9 +27,10 @@ _PRODUCTS = ({"jnt_stiffness", "qpos_spring"}, {"ctrl", "actuator_gainprm"})
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """Entries `index` of the flattened model field `field`, set to offset + factor * value.
+    """Entries `index` of the flattened model field `field`, set to scale * (offset + factor * value)^power.
 
-    `derives` says whether MuJoCo must recompute derived constants when they change.
+    `derives` says whether MuJoCo must recompute derived constants when they change, `loaded` what offset + factor *
+    value is in the loaded model where the entries do not tell.
     """
 
     field: str
@@ -36,6 +39,19 @@ class Target:
     offset: float = 0.0
     path: str = ""
     derives: bool = False
+    scale: float = 1.0
+    power: float = 1.0
+    loaded: float | None = None
+    unit: str = ""
+
+    def entry(self, value: float) -> float:
+        """Return what the entries are at a parameter's value."""
+        plain = self.offset + self.factor * value
+        if self.loaded is None:
+            return plain
+        if not plain > 0:
+            raise ParameterError(f"target '{self.path}': the stiffness of a constraint must be positive, got {plain:g}")
+        return self.scale * plain**self.power
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,9 +81,24 @@ class Parameter:
     hard_bounds: tuple[float, float] = (-math.inf, math.inf)
 
     @property
+    def limits(self) -> str:
+        """The hard bounds in words."""
+        if self.kind == "control":
+            low, high = self.hard_bounds
+            return f"the actuator's ctrlrange [{low:g}, {high:g}], where MuJoCo would clamp it"
+        return "the positive numbers, where a constraint is a spring"
+
+    @property
+    def springs(self) -> bool:
+        """Whether it sets the stiffness of constraints."""
+        return any(t.loaded is not None for t in self.targets)
+
+    @property
     def affine(self) -> bool:
         """Whether the generalised forces are affine in the parameter."""
-        fields = {t.field for t in self.targets}
+        fields = {t.field for t in self.targets if t.loaded is None}
+        if self.springs and not fields:
+            return True
         return bool(fields) and fields <= _AFFINE and not any(pair <= fields for pair in _PRODUCTS)
 
     @property
