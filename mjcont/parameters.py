@@ -108,7 +108,7 @@ def _positive(targets: Sequence[Target]) -> tuple[float, float]:
     low, high = -math.inf, math.inf
     for t in targets:
         if t.loaded is not None:
-            end = (np.finfo(float).tiny - t.offset) / t.factor
+            end = (float(np.finfo(float).tiny) - t.offset) / t.factor
             low, high = (max(low, end), high) if t.factor > 0 else (low, min(high, end))
     return low, high
 

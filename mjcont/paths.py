@@ -120,7 +120,9 @@ def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
     if not ids:
         listing = ", ".join(n for n in names if n) or "none"
         raise ParameterError(f"target '{path}' matches no {kind} of the model. Its {kind} names: {listing}.")
-    if (kind, attr, match["index"]) == ("equality", "stiffness", None):
+    if (kind, attr) == ("equality", "stiffness"):
+        if match["index"] is not None:
+            raise ParameterError(f"target '{path}': equality:NAME.stiffness has no index")
         return stiffness_targets(model, ids, factor, offset, path)
     field, entries = _field_entries(model, kind, attr, ids)
     if match["index"] is not None:

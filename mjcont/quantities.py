@@ -7,8 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from mjcont.errors import ParameterError
-
 # fields in which the forces are affine, so that two points give an exact derivative
 _AFFINE = frozenset(
     {
@@ -49,9 +47,8 @@ class Target:
         plain = self.offset + self.factor * value
         if self.loaded is None:
             return plain
-        if not plain > 0:
-            raise ParameterError(f"target '{self.path}': the stiffness of a constraint must be positive, got {plain:g}")
-        return self.scale * plain**self.power
+        # a prediction may leave the domain: forces that are no number fail its step
+        return self.scale * plain**self.power if plain > 0 else math.nan
 
 
 @dataclass(frozen=True, slots=True)
