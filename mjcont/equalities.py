@@ -286,4 +286,11 @@ def describe_equalities(model: mujoco.MjModel) -> list[str]:
         lines.append(f"  {spring}")
         if spring.kind != ROTATION:
             lines += [f"    {warning}" for warning in spring.warnings]
+    if lines and model.opt.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE and _has_passive_forces(model):
+        lines.append('  stiffer in time histories: with integrator="discrete" their weight is that of M + hD + h^2 K, not M')
     return lines
+
+
+def _has_passive_forces(model: mujoco.MjModel) -> bool:
+    fields = (model.dof_damping, model.jnt_stiffness, model.tendon_damping, model.tendon_stiffness)
+    return any(field.any() for field in fields) or bool(model.actuator_biasprm[:, 1:3].any())

@@ -20,8 +20,10 @@ MODEL = """
   <body name="b" pos="0.3 0 0"><freejoint/><geom type="box" size="0.1 0.2 0.3" mass="5"/></body>
   <body name="c" pos="3 0 0"><joint name="h1" axis="0 1 0"/><geom size="0.1" pos="0.5 0 0" mass="2"/></body>
   <body name="d" pos="5 0 0"><joint name="h2" axis="0 1 0"/><geom size="0.2" pos="0.4 0 0" mass="3"/></body>
-  <body name="e" pos="7 0 0"><joint name="s1" type="slide" axis="1 0 0"/><geom size="0.1" mass="4"/><site name="e"/></body>
-  <body name="f" pos="8 0 0"><joint name="s2" type="slide" axis="1 0 0"/><geom size="0.1" mass="1"/><site name="f"/></body>
+  <body name="e" pos="7 0 0"><joint name="s1" type="slide" axis="1 0 0"/><geom size="0.1" mass="4"/>
+    <site name="e"/></body>
+  <body name="f" pos="8 0 0"><joint name="s2" type="slide" axis="1 0 0"/><geom size="0.1" mass="1"/>
+    <site name="f"/></body>
   <site name="left" pos="6 0 0"/><site name="right" pos="9 0 0"/>
 </worldbody>
 <tendon>
@@ -246,6 +248,22 @@ def test_inspect_says_that_the_stiffness_depends_on_the_gap_and_how_to_make_it_c
 def test_inspect_says_that_the_timestep_clamps_solref():
     text = shown(CONNECT, SOLVERS["standard, clamped by the timestep"])
     assert "solref is clamped by the timestep: its time constant 0.001 s acts as 0.01 s" in text
+
+
+DAMPED = HANGING.replace('type="slide"', 'type="slide" damping="2000"').replace("{solref}", "-1e4 -200")
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "discrete"])
+def test_inspect_says_where_time_histories_have_a_stiffer_constraint(integrator):
+    # with "discrete" the weight is 1 / (m + h c) in place of 1 / m
+    mechanism = mc.Mechanism.from_xml(DAMPED.format(integrator=integrator))
+    model = mechanism.simulation_model()
+    data = mujoco.MjData(model)
+    for _ in range(4000):
+        mujoco.mj_step(model, data)
+    ratio = 2.0 * 9.81 / -data.qpos[0] / mc.constraint_stiffness(mechanism)[0].stiffness
+    assert ratio == pytest.approx(1.0 if integrator == "Euler" else (2.0 + 0.005 * 2000.0) / 2.0, rel=1e-6)
+    assert ("stiffer in time histories" in str(mechanism)) == (ratio > 1.1)
 
 
 def test_inspect_says_that_the_stiffness_depends_on_the_pose():
