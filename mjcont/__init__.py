@@ -30,10 +30,11 @@ from mjcont.errors import (
 
 if TYPE_CHECKING:
     from mjcont.branch import Branch, Column, Point, SpecialPoint
-    from mjcont.bushes import add_bushes, bushed_xml
+    from mjcont.bushes import add_bushes, bushed_xml, set_constraint_stiffness
     from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
     from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
     from mjcont.drawing import add_poses, draw, draw_poses
+    from mjcont.equalities import ConstraintStiffness, constraint_stiffness
     from mjcont.extension import extend
     from mjcont.found import Equilibria, Equilibrium
     from mjcont.histories import History, simulate
@@ -49,10 +50,11 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "mjcont.branch": ("Branch", "Column", "Point", "SpecialPoint"),
-    "mjcont.bushes": ("add_bushes", "bushed_xml"),
+    "mjcont.bushes": ("add_bushes", "bushed_xml", "set_constraint_stiffness"),
     "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
     "mjcont.drawing": ("add_poses", "draw", "draw_poses"),
+    "mjcont.equalities": ("ConstraintStiffness", "constraint_stiffness"),
     "mjcont.extension": ("extend",),
     "mjcont.loci": ("continue_special",),
     "mjcont.mechanism": ("Mechanism",),
@@ -77,6 +79,7 @@ __all__ = [
     "BoundsError",
     "Branch",
     "Column",
+    "ConstraintStiffness",
     "Diagram",
     "Equilibria",
     "Equilibrium",
@@ -99,6 +102,7 @@ __all__ = [
     "add_poses",
     "bifurcation_diagram",
     "bushed_xml",
+    "constraint_stiffness",
     "continue_equilibria",
     "continue_special",
     "draw",
@@ -111,6 +115,7 @@ __all__ = [
     "load_study",
     "plot",
     "run_study",
+    "set_constraint_stiffness",
     "simulate",
     "stiffness_study",
     "switch_branches",

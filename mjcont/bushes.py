@@ -29,9 +29,11 @@ from mjcont.bushsections import (
     free_class,
     rewrite_keys,
 )
+from mjcont.equalities import equality_name, springs_of
 from mjcont.errors import ModelError, ParameterError, unknown_name
+from mjcont.impedance import impedance
 from mjcont.mjcf import Document, Element, elements, exact_text, numbers
-from mjcont.topology import Closure, Frame, constraint_closures, equality_name, gap, plane_normal
+from mjcont.topology import Closure, Frame, constraint_closures, gap, plane_normal
 
 FRAMES = ("world", "parent")
 _JOINT = mujoco.mjtJoint
@@ -120,6 +122,55 @@ def bushed_xml(
     except (_NotInText, ElementTree.ParseError):
         edited = _edit(Document(exact_text(spec)), folder, compiled, pins, closures, constants, frame)
     return str(edited)
+
+
+def set_constraint_stiffness(
+    model: str | Path | mujoco.MjSpec,
+    stiffness: float = 1e6,
+    equalities: Sequence[str] | None = None,
+    damping_ratio: float = 1.0,
+) -> mujoco.MjSpec:
+    """Return the model's spec with equality constraints that are springs of one stiffness, whatever their gap.
+
+    Nothing is replaced: solref and solimp alone are set. `equality:NAME.stiffness` is then a parameter.
+
+    Parameters
+    ----------
+    model : path, shipped model's name, XML text, or mujoco.MjSpec
+    stiffness : float
+        In N/m (for a weld of its translation), or N*m/rad where the constraint's error is an angle.
+    equalities : sequence of str, optional
+        Names of equalities; default every active connect and weld.
+    damping_ratio : float, optional
+        1 is critical for the bodies that the constraint joins.
+
+    Raises
+    ------
+    MjcontError
+        For a name that the model has not, or numbers that are not positive.
+    """
+    if not (math.isfinite(stiffness) and stiffness > 0 and 0 <= damping_ratio < math.inf):
+        raise ParameterError("a constraint's stiffness must be a positive number, its damping ratio not negative")
+    text, folder = _source(model)
+    spec = loading.parse(text, folder, "to be given stiffness")
+    compiled = loading.compile_spec(spec)
+    names = {equality_name(compiled, e): e for e in range(compiled.neq)}
+    if equalities is None:
+        equalities = [c.name for c in constraint_closures(compiled)]
+    if not equalities:
+        raise ModelError("nothing to give stiffness: the model has no active connect or weld, and no name was given")
+    for name in equalities:
+        if name not in names:
+            raise unknown_name("equality", name, names)
+        springs = springs_of(compiled, names[name])
+        if not springs or springs[0].depends_on_pose:
+            raise ModelError(f"equality '{name}' has no stiffness of its own: flex equalities and diagexact have none")
+        d = impedance(springs[0].solimp, 0.0)
+        direct = stiffness * springs[0].weight * (1.0 - d)
+        element = spec.equalities[names[name]]
+        element.solref = [-direct, -2.0 * damping_ratio * math.sqrt(direct)]
+        element.solimp = [d, d, *springs[0].solimp[2:]]
+    return spec
 
 
 def _source(model: str | Path | mujoco.MjSpec) -> tuple[str, Path | None]:

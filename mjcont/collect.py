@@ -188,12 +188,22 @@ def build_branch(
         neutral_saddles=[
             {n: v for n, v in system.values(e.point.y).items() if n in system.names} for e in neutral
         ],
-        notes=(*notes, *_unexplained(kind, system, rows, spectra)),
+        notes=(*notes, *_springs(problem, system, values), *_unexplained(kind, system, rows, spectra)),
         fixed_units={k: u for k, u in unit_of.items() if k in values[0] and k not in system.names},
     )
     object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows)))
     object.__setattr__(branch, "start", _describe_start(branch, origin))
     return branch
+
+
+def _springs(problem: Any, system: System, values: Sequence[Values]) -> list[str]:
+    """Return the notes on the stiffness of a mechanism's constraints, over the range of the free parameters."""
+    if not getattr(problem, "constrained", False):
+        return []
+    from mjcont.springnotes import notes_on  # MuJoCo is imported only where there is a Mechanism
+
+    ends = [pick(values, key=lambda v: v[p.name]) for p in system.free for pick in (min, max)]  # noqa: B023
+    return notes_on(problem, ends)
 
 
 def _unexplained(

@@ -73,8 +73,8 @@ def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) ->
     hard_low, hard_high = parameter.hard_bounds
     if low < hard_low or high > hard_high:
         raise BoundsError(
-            f"bounds ({low:g}, {high:g}) of {name} leave {parameter.limit} [{hard_low:g}, {hard_high:g}], "
-            "where MuJoCo would clamp it: narrow the bounds or widen the range in the XML"
+            f"bounds ({low:g}, {high:g}) of {name} leave {parameter.limits}: narrow the bounds"
+            + ("" if parameter.springs else " or widen the range in the XML")
         )
     return low, high
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
+from mjcont.equalities import describe_equalities
 from mjcont.errors import ModelError, ParameterError, unknown_name
 from mjcont.features import touching
 from mjcont.mjcf import exact_text
@@ -122,6 +123,10 @@ def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     """
     model.actuator_delay[:] = 0.0
     private = copy_model(model)
+    # time histories with "discrete" clamp no equality's time constant, those with other integrators do
+    if np.any((model.eq_solref[:, 0] > 0) & (model.eq_solref[:, 0] < 2.0 * model.opt.timestep)):
+        if model.opt.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE:
+            private.opt.disableflags |= int(_DISABLE.mjDSBL_REFSAFE)
     private.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     private.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
     private.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # sparse constraint Jacobians are wrong in MuJoCo 4.0.0
@@ -219,6 +224,8 @@ def describe(mechanism: Mechanism) -> str:
         rows.append([o.name, _number(v, o.unit).removesuffix(" deg"), "deg" if o.unit == "rad" else o.unit])
     lines += ["", "observables", *_table(rows)]
     lines += ["", "structure", *describe_topology(m.simulation_model())]
+    if springs := describe_equalities(m.simulation_model()):
+        lines += ["", "constraints as springs", *springs]
     lines += ["", "starts", "  qpos0", *(f"  keyframe {k}" for k in m.keyframes)]
     if m.notes:
         lines += ["", "notes", *(f"  {note}" for note in m.notes)]

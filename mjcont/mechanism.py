@@ -205,6 +205,8 @@ class Mechanism:
         """
         parameter = self.parameters[name]
         size = max(abs(value), 1e-2 * (span or parameter.bounds[1] - parameter.bounds[0]))
+        if parameter.springs:  # a step must not lead to a negative stiffness, which MuJoCo has not
+            return (CENTRED, 0.1 * abs(value)) if parameter.affine else (PARAMETER, PARAMETER.step * abs(value))
         if parameter.affine:
             return CENTRED, max(1.0, abs(value)) if parameter.kind == "control" else 0.1 * size
         if parameter.unit == "rad":

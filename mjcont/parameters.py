@@ -96,9 +96,26 @@ def make_parameter(model: mujoco.MjModel, declaration: Declaration) -> Parameter
         )
     kind = parameter_kind({t.field for t in targets})
     value = float(values[0]) + 0.0
+    units = {t.unit for t in targets}
+    unit = declaration.unit or (units.pop() if len(units) == 1 else "")
     *hard, words = _input_range(model, targets)
-    bounds = (0.0, 1.0) if kind == "switch" else declaration.bounds or default_bounds(value, declaration.unit)
-    return Parameter(declaration.name, declaration.unit, value, bounds, kind, targets, (hard[0], hard[1]), words)
+    springs = any(t.loaded is not None for t in targets)
+    several_decades = (1e-4 * value, 1e4 * value) if springs and value > 0 else None
+    bounds = declaration.bounds or several_decades or default_bounds(value, unit)
+    if kind == "switch":
+        bounds = (0.0, 1.0)
+    low, high = _positive(targets) if springs else hard
+    return Parameter(declaration.name, unit, value, bounds, kind, targets, (low, high), words)
+
+
+def _positive(targets: Sequence[Target]) -> tuple[float, float]:
+    """Return the range of values that keeps every constraint's stiffness positive."""
+    low, high = -math.inf, math.inf
+    for t in targets:
+        if t.loaded is not None:
+            end = (float(np.finfo(float).tiny) - t.offset) / t.factor
+            low, high = (max(low, end), high) if t.factor > 0 else (low, min(high, end))
+    return low, high
 
 
 def _input_range(model: mujoco.MjModel, targets: Sequence[Target]) -> tuple[float, float, str]:

@@ -3,6 +3,7 @@
 Their grammar is object:pattern.attribute[index]*factor+offset,
 
 with `object` one of joint, body, site, geom, tendon, actuator, equality, mocap, option, control.
+`equality:NAME.stiffness` is no field but the effective stiffness of a constraint (see equalities.py).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
+from mjcont.equalities import stiffness_targets
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.inputs import INPUT_FIELDS, actuator_name, integrator, loaded_inputs
 from mjcont.quantities import Target
@@ -87,6 +89,7 @@ def _field_entries(model: mujoco.MjModel, kind: str, attr: str, ids: Sequence[in
         starts = (prefix, "dof_") if kind == "joint" else (prefix,)
         fields = [f for f in dir(model) if f.startswith(starts) and _is_continuous(getattr(model, f))]
         valid = {f.split("_", 1)[1] for f in fields} | {a for k, a in _RENAMED if k == kind}
+        valid |= {"stiffness"} if kind == "equality" else set()
         raise unknown_name(f"attribute of a {kind}", attr, valid)
     assert array is not None
     if field.startswith("dof_"):
@@ -160,6 +163,10 @@ def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
     if not ids:
         listing = ", ".join(n for n in names if n) or "none"
         raise ParameterError(f"target '{path}' matches no {kind} of the model. Its {kind} names: {listing}.")
+    if (kind, attr) == ("equality", "stiffness"):
+        if match["index"] is not None:
+            raise ParameterError(f"target '{path}': equality:NAME.stiffness has no index")
+        return stiffness_targets(model, ids, factor, offset, path)
     field, entries = _input_entries(model, kind, attr, ids) or _field_entries(model, kind, attr, ids)
     if match["index"] is not None:
         index = int(match["index"])
@@ -187,6 +194,8 @@ def _option_index(model: mujoco.MjModel, attr: str, index: str | None) -> tuple[
 
 def read_target(model: mujoco.MjModel, target: Target) -> np.ndarray:
     """Return the parameter values that the target's entries imply, (len(index),)."""
+    if target.loaded is not None:
+        return np.full(len(target.index), (target.loaded - target.offset) / target.factor)
     owned = target.field in INPUT_FIELDS
     array = np.ravel(loaded_inputs(model)[target.field] if owned else field_array(model, target.field))
     return (array[list(target.index)] - target.offset) / target.factor

@@ -30,9 +30,10 @@ _PRODUCTS = ({"jnt_stiffness", "qpos_spring"}, {"ctrl", "actuator_gainprm"}, {"a
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """Entries `index` of the flattened model field `field`, set to offset + factor * value.
+    """Entries `index` of the flattened model field `field`, set to scale * (offset + factor * value)^power.
 
-    `derives` says whether MuJoCo must recompute derived constants when they change.
+    `derives` says whether MuJoCo must recompute derived constants when they change, `loaded` what offset + factor *
+    value is in the loaded model where the entries do not tell.
     """
 
     field: str
@@ -41,6 +42,18 @@ class Target:
     offset: float = 0.0
     path: str = ""
     derives: bool = False
+    scale: float = 1.0
+    power: float = 1.0
+    loaded: float | None = None
+    unit: str = ""
+
+    def entry(self, value: float) -> float:
+        """Return what the entries are at a parameter's value."""
+        plain = self.offset + self.factor * value
+        if self.loaded is None:
+            return plain
+        # a prediction may leave the domain: forces that are no number fail its step
+        return self.scale * plain**self.power if plain > 0 else math.nan
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +88,24 @@ class Parameter:
     limit: str = ""
 
     @property
+    def limits(self) -> str:
+        """The hard bounds in words."""
+        if self.springs:
+            return "the positive numbers, where a constraint is a spring"
+        low, high = self.hard_bounds
+        return f"{self.limit} [{low:g}, {high:g}], where MuJoCo would clamp it"
+
+    @property
+    def springs(self) -> bool:
+        """Whether it sets the stiffness of constraints."""
+        return any(t.loaded is not None for t in self.targets)
+
+    @property
     def affine(self) -> bool:
         """Whether the generalised forces are affine in the parameter."""
-        fields = {t.field for t in self.targets}
+        fields = {t.field for t in self.targets if t.loaded is None}
+        if self.springs and not fields:
+            return True
         return bool(fields) and fields <= _AFFINE and not any(pair <= fields for pair in _PRODUCTS)
 
     @property
@@ -97,9 +125,7 @@ class Parameter:
             raise ParameterError(f"parameter '{self.name}' is a switch: its value must be 0 or 1, got {value:g}")
         low, high = self.hard_bounds
         if not low <= value <= high:
-            raise BoundsError(
-                f"{self.name} = {value:g} lies outside {self.limit} [{low:g}, {high:g}], where MuJoCo would clamp it"
-            )
+            raise BoundsError(f"{self.name} = {value:g} lies outside {self.limits}")
 
     @property
     def needs_constants(self) -> bool:

@@ -105,7 +105,7 @@ def stiffness_study(
     if getattr(point.problem, "mjcf", None) != getattr(mechanism, "mjcf", None):
         raise MjcontError(f"{point.label} belongs to another model than '{mechanism.name}'")
     own = mechanism.parameter(parameter).bounds
-    value = point.parameters[parameter]
+    value = point.parameters.get(parameter, mechanism.parameter(parameter).value)  # a path may be new to the point
     span = bounds or (max(own[0], value * 1e-3), min(own[1], value * 1e3))
     locus = continue_special(point, parameter, bounds=span, **options)
     column = quantity or next(iter(point.free))

@@ -2,7 +2,7 @@
 
 A model is a tree of joints plus *closures*: `connect` and `weld` constraints, or bush actuators between two sites. With
 J the Jacobian of all closures at a pose (and of the slides of elastic pins), the mobility is n - rank J. A closure that
-is a constraint is stiff at rest, not rigid: it is a spring (`connect_stiffness`).
+is a constraint is stiff at rest, not rigid: it is a spring (equalities.py).
 """
 
 from __future__ import annotations
@@ -15,13 +15,11 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from mjcont.errors import ModelError, unknown_name
-from mjcont.impedance import impedance, reference_stiffness
+from mjcont.equalities import KINDS, equality_name
 from mjcont.paths import is_bush
 
 _JOINT, _EQ, _OBJ = mujoco.mjtJoint, mujoco.mjtEq, mujoco.mjtObj
 _DISABLE = mujoco.mjtDisableBit
-_KINDS = {_EQ.mjEQ_CONNECT: "connect", _EQ.mjEQ_WELD: "weld", _EQ.mjEQ_JOINT: "joint", _EQ.mjEQ_TENDON: "tendon"}
 _AXIS_SUFFIX = re.compile(r"_r?[xyzuv]$")
 
 
@@ -105,11 +103,6 @@ def body_name(model: mujoco.MjModel, body: int) -> str:
     return "ground" if body == 0 else _name(model, _OBJ.mjOBJ_BODY, body, f"body{body}")
 
 
-def equality_name(model: mujoco.MjModel, equality: int) -> str:
-    """Return an equality's name, or equality0, equality1, ... where it has none."""
-    return _name(model, _OBJ.mjOBJ_EQUALITY, equality, f"equality{equality}")
-
-
 # -- closures and loops -----------------------------------------------------------------------------------------
 
 
@@ -134,7 +127,7 @@ def constraint_closures(model: mujoco.MjModel) -> list[Closure]:
     kinds = (_EQ.mjEQ_CONNECT, _EQ.mjEQ_WELD)
     active = [e for e in range(model.neq) if _EQ(model.eq_type[e]) in kinds and model.eq_active0[e]]
     return [
-        Closure(equality_name(model, e), _KINDS[_EQ(model.eq_type[e])], e, equality_frames(model, e)) for e in active
+        Closure(equality_name(model, e), KINDS[_EQ(model.eq_type[e])], e, equality_frames(model, e)) for e in active
     ]
 
 
@@ -162,7 +155,7 @@ def couplings(model: mujoco.MjModel) -> list[str]:
     """Return the active equalities between joints or tendons: they take a freedom but close no loop of bodies."""
     kinds = (_EQ.mjEQ_JOINT, _EQ.mjEQ_TENDON)
     chosen = [e for e in range(model.neq) if _EQ(model.eq_type[e]) in kinds and model.eq_active0[e]]
-    return [f"{_KINDS[_EQ(model.eq_type[e])]} {equality_name(model, e)}" for e in chosen]
+    return [f"{KINDS[_EQ(model.eq_type[e])]} {equality_name(model, e)}" for e in chosen]
 
 
 def joints_of(model: mujoco.MjModel, body: int) -> range:
@@ -321,45 +314,6 @@ def gap(model: mujoco.MjModel, closure: Closure, qpos: np.ndarray | None = None)
     return float(np.linalg.norm(apart))
 
 
-# -- stiffness of a constraint ----------------------------------------------------------------------------------
-
-
-def connect_stiffness(model: mujoco.MjModel, equality: int | str, opening: float = 0.0) -> float:
-    """Return the stiffness in N/m of the spring that a connect or weld is at rest.
-
-    That is k d^2 / ((1 - d) A) with the impedance d, k = stiffness / d_width^2 for solref = (-stiffness, -damping), and
-    A the sum of the two bodies' invweight0. Where d does not depend on the opening it is stiffness / ((1 - d) A).
-
-    Parameters
-    ----------
-    model : mujoco.MjModel
-    equality : int or str
-        Its number or name.
-    opening : float, optional
-        The length of its position error in m, where the impedance depends on that: the force is stiffness times
-        opening (for a weld the error's angles count, times its torquescale).
-
-    Raises
-    ------
-    NameLookupError
-        If there is no such equality.
-    ModelError
-        If it is neither connect nor weld.
-    """
-    names = [equality_name(model, e) for e in range(model.neq)]
-    if isinstance(equality, str):
-        if equality not in names:
-            raise unknown_name("equality", equality, names)
-        equality = names.index(equality)
-    if _KINDS.get(_EQ(model.eq_type[equality])) not in ("connect", "weld"):
-        raise ModelError(f"equality '{names[equality]}' is neither a connect nor a weld")
-    weight = sum(float(model.body_invweight0[f.body, 0]) for f in equality_frames(model, equality))
-    d = impedance(model.eq_solimp[equality], opening)
-    return (
-        reference_stiffness(model, model.eq_solref[equality], model.eq_solimp[equality]) * d * d / ((1.0 - d) * weight)
-    )
-
-
 # -- summary ----------------------------------------------------------------------------------------------------
 
 
@@ -382,8 +336,7 @@ def describe_topology(model: mujoco.MjModel) -> list[str]:
         lines.append(f"  {count.constraint_rows} constraint rows, {redundant} of them redundant")
     for number, loop in enumerate(found, 1):
         c = loop.closure
-        stiffness = "" if c.elastic else f", {connect_stiffness(model, c.index):.3g} N/m at rest"
-        lines.append(f"  loop {number}: {' - '.join(loop.bodies)}, closed by {c.kind} {c.name}{stiffness}")
+        lines.append(f"  loop {number}: {' - '.join(loop.bodies)}, closed by {c.kind} {c.name}")
     if not found:
         lines.append("  no loops")
     lines += [f"  coupling: {c}" for c in couplings(model)]

@@ -138,7 +138,7 @@ class FieldWriter:
             self.model.opt.gravity[:] = self.gravity.vector(written[GRAVITY_ANGLE], written[LOAD_FACTOR])
         for target in parameter.targets:
             index = list(target.index)
-            entry = target.offset + target.factor * written[parameter.name]
+            entry = target.entry(written[parameter.name])
             if target.field in INPUT_FIELDS:
                 self.inputs.write(target.field, index, entry)
                 continue

@@ -108,6 +108,19 @@ def elastic_folds(linkage, stiffness, near):
     return np.array(found)
 
 
+def unstable_directions(linkage, turns, stiffness):
+    """Return how many eigenvalues of V's second derivatives are negative at each of the crank's turns."""
+    q = np.array(linkage.start or np.zeros(linkage.n), dtype=float)
+    found = {}
+    for side in (1, -1):
+        at = q.copy()
+        for turn in sorted((t for t in turns if side * t >= 0), key=abs):
+            for step in np.linspace(at[0], turn, 2 + int(abs(turn - at[0]) / 0.1))[1:]:
+                at = balanced(linkage, step, stiffness, at)
+            found[turn] = int((np.linalg.eigvalsh(_hessian(linkage, at, stiffness)) < 0).sum())
+    return np.array([found[t] for t in turns])
+
+
 # -- rigid pins -------------------------------------------------------------------------------------------------
 
 

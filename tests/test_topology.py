@@ -1,4 +1,4 @@
-"""Loops, freedoms and closures of mechanisms whose mobility is known, and the stiffness of MuJoCo's constraints."""
+"""Loops, freedoms and closures of mechanisms whose mobility is known."""
 
 from __future__ import annotations
 
@@ -9,24 +9,7 @@ import pytest
 import mjcont as mc
 from mjcont.bushes import bushed_xml
 from mjcont.loading import models_folder
-from mjcont.topology import connect_stiffness, describe_topology, freedom, loops, plane_normal, softening
-
-# two bodies on three slides and a ball joint each, joined by an equality
-PAIR = """
-<mujoco><option timestep="0.005" gravity="0 0 0"/><worldbody>
-  <body name="a"><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 1 0"/><joint type="slide"/>
-    <joint type="ball"/><geom size="0.1" mass="2" contype="0"/></body>
-  <body name="b" pos="0.3 0 0"><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 1 0"/>
-    <joint type="slide"/><joint type="ball"/><geom size="0.1" mass="5" contype="0"/></body>
-</worldbody><equality><{kind} name="e" body1="a" body2="b" {where} {solver}/></equality></mujoco>"""
-SOLVERS = {
-    "direct, constant impedance": 'solref="-2e4 -100" solimp="0.9 0.9 0.001"',
-    "direct, growing impedance": 'solref="-2e4 -100" solimp="0.5 0.8 0.02 0.3 3"',
-    "direct, linear impedance": 'solref="-2e4 -100" solimp="0.5 0.8 0.02 0.5 1"',
-    "standard": 'solref="0.05 1" solimp="0.9 0.95 0.02"',
-    "standard, clamped by the timestep": 'solref="0.001 1" solimp="0.9 0.95 0.001"',
-    "MuJoCo's own": "",
-}
+from mjcont.topology import describe_topology, freedom, loops, plane_normal, softening
 
 
 def shipped(name):
@@ -126,45 +109,3 @@ def test_a_coupling_of_joints_is_listed():
     text = (models_folder() / "four_bar.xml").read_text()
     text = text.replace("</equality>", '<joint name="gears" joint1="crank" joint2="rocker"/></equality>')
     assert "coupling: joint gears" in "\n".join(describe_topology(mujoco.MjModel.from_xml_string(text)))
-
-
-# -- stiffness of a constraint ---------------------------------------------------------------------------------------
-
-
-def static_force(model, opening):
-    """Return MuJoCo's constraint force with no acceleration, body b moved along y."""
-    data = mujoco.MjData(model)
-    data.qpos[8] += opening
-    data.qacc[:] = 0.0
-    mujoco.mj_inverse(model, data)
-    return data.qfrc_constraint[7]
-
-
-@pytest.mark.parametrize("solver", SOLVERS.values(), ids=SOLVERS)
-@pytest.mark.parametrize("opening", [1e-4, 5e-3, 0.015, 0.03])
-def test_connect_stiffness_is_the_static_force_over_the_opening(solver, opening):
-    model = mujoco.MjModel.from_xml_string(PAIR.format(kind="connect", where='anchor="0 0 0"', solver=solver))
-    expected = connect_stiffness(model, "e", opening)
-    assert static_force(model, opening) / -opening == pytest.approx(expected, rel=1e-10)
-
-
-def test_weld_stiffness_is_the_static_force_over_the_opening():
-    solver = SOLVERS["direct, growing impedance"]
-    model = mujoco.MjModel.from_xml_string(PAIR.format(kind="weld", where="", solver=solver))
-    assert static_force(model, 0.01) / -0.01 == pytest.approx(connect_stiffness(model, 0, 0.01), rel=1e-10)
-
-
-def test_with_constant_impedance_it_is_the_stiffness_over_1_minus_d_and_the_inverse_weights():
-    solver = SOLVERS["direct, constant impedance"]
-    model = mujoco.MjModel.from_xml_string(PAIR.format(kind="connect", where='anchor="0 0 0"', solver=solver))
-    assert connect_stiffness(model, "e") == pytest.approx(2e4 / ((1 - 0.9) * (1 / 2 + 1 / 5)), rel=1e-12)
-
-
-def test_only_connects_and_welds_have_that_stiffness():
-    text = (models_folder() / "four_bar.xml").read_text()
-    text = text.replace("</equality>", '<joint name="gears" joint1="crank" joint2="rocker"/></equality>')
-    model = mujoco.MjModel.from_xml_string(text)
-    with pytest.raises(mc.ModelError, match="'gears' is neither a connect nor a weld"):
-        connect_stiffness(model, "gears")
-    with pytest.raises(mc.NameLookupError, match="unknown equality 'D'"):
-        connect_stiffness(model, "D")
