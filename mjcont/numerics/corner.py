@@ -23,6 +23,13 @@ NEAR = 1e-4
 _LEAVE = 1e-4
 _SHARP = 1e-8
 _EXACT = 1e-13
+# names such as "tendon cable taut" end in a state, which begins and ends
+_BEARERS = ("tendon ", "actuator ", "actuation ")
+_STATES = {
+    "taut": ("goes taut", "goes slack"),
+    "compressed": ("is compressed", "goes slack"),
+    "saturated": ("saturates", "leaves saturation"),
+}
 
 
 def loaded(system: System, x: Array, y: Array) -> frozenset[str]:
@@ -40,9 +47,16 @@ def loaded_at(system: System, point: CurvePoint) -> frozenset[str]:
 
 def describe(before: frozenset[str], after: frozenset[str]) -> str:
     """Return a sentence on what changes."""
-    parts = [f"{name} engages" for name in sorted(after - before)]
-    parts += [f"{name} releases" for name in sorted(before - after)]
+    parts = [_becomes(name, 0) for name in sorted(after - before)]
+    parts += [_becomes(name, 1) for name in sorted(before - after)]
     return ", ".join(parts)
+
+
+def _becomes(name: str, ends: int) -> str:
+    subject, _, state = name.rpartition(" ")
+    if state in _STATES and name.startswith(_BEARERS):
+        return f"{subject} {_STATES[state][ends]}"
+    return f"{name} {('engages', 'releases')[ends]}"
 
 
 @dataclass(slots=True)
