@@ -43,9 +43,9 @@ class Kinks:
         """Return the elements of a model, None where every force is smooth."""
         springs = not model.opt.disableflags & _DISABLE.mjDSBL_SPRING
         acts = not model.opt.disableflags & _DISABLE.mjDSBL_ACTUATION
-        pull = (model.actuator_trntype == mujoco.mjtTrn.mjTRN_TENDON) & (model.actuator_outnum == 1)
+        pull = (model.actuator_trntype == int(mujoco.mjtTrn.mjTRN_TENDON)) & (model.actuator_outnum == 1)
         driven = acts * pull * (model.actuator_trnid[:, 0] == np.arange(model.ntendon)[:, None])
-        moved = np.isin(model.jnt_type, [mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_HINGE])
+        moved = np.isin(model.jnt_type, [int(mujoco.mjtJoint.mjJNT_SLIDE), int(mujoco.mjtJoint.mjJNT_HINGE)])
         limited = model.actuator_forcelimited.astype(bool) & (model.actuator_outnum > 0)
         band = springs * (model.tendon_lengthspring[:, 0] < model.tendon_lengthspring[:, 1])
         found = cls(
@@ -150,7 +150,7 @@ def _at_bounds(force: Array, ranges: Array, tolerance: float = 0.0) -> Array:
 
 def _wraps(model: mujoco.MjModel) -> list[tuple[int, int]]:
     """Return every (tendon, geom) of which the tendon's path may touch the geom."""
-    round_ones = (mujoco.mjtWrap.mjWRAP_SPHERE, mujoco.mjtWrap.mjWRAP_CYLINDER)
+    round_ones = (int(mujoco.mjtWrap.mjWRAP_SPHERE), int(mujoco.mjtWrap.mjWRAP_CYLINDER))
     pairs = [
         (t, int(model.wrap_objid[w]))
         for t in range(model.ntendon)
