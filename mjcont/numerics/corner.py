@@ -97,6 +97,7 @@ def cross(system: System, point: CurvePoint, settings: Settings) -> tuple[CurveP
     if crossed is None or not _sudden(system, point, crossed[1].point):
         return None
     names = ", ".join(sorted(before))
+    crossed[1].tolerance = _AT  # no better than the differences that see it
     crossed[1].note = "the stiffness jumps" + (f" under {names}" if names else "") + crossed[1].note
     return crossed
 
