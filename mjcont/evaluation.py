@@ -11,7 +11,7 @@ from mjcont.rows import ConstrainedRows, Rows
 from mjcont.writer import FieldWriter
 
 _MAX_BATCHES = 32
-_ACCELERATION_STEP = 1e-3
+_ACCELERATION_STEPS = (1e-3, 1e-6)
 _VELOCITY_STEPS = (1.0, 1e-3, 1e-6)
 
 
@@ -87,11 +87,13 @@ class Evaluator:
         """Return the mass matrix, (nv, nv); a soft constraint adds to it, since its force depends on acceleration."""
         n = self.model.nv
         if self._constrained is not None:
-            self.count += 2 * n
-            steps = np.concatenate([np.eye(n), -np.eye(n)])
             many = np.broadcast_to(x, (2 * n, len(x)))
-            rows = self._constrained.forward(many, None, self.writer, _ACCELERATION_STEP * steps)
-            return (rows[n:] - rows[:n]).T / (2.0 * _ACCELERATION_STEP)
+            for h in _ACCELERATION_STEPS:
+                self.count += 2 * n
+                rows = self._constrained.forward(many, None, self.writer, h * np.concatenate([np.eye(n), -np.eye(n)]))
+                if len(set(self._constrained.sides)) == 1:
+                    break
+            return (rows[n:] - rows[:n]).T / (2.0 * h)
         dense = np.empty((n, n))
         mujoco.mj_fullM(self.model, self.position(x), dense)
         return dense

@@ -190,7 +190,7 @@ class Mechanism:
         f, sides = rows[0].copy(), self._evaluator.sides
         jac = jacobian_from_rows(rows[1:], self.state_scale, rule)
         if sides:
-            jac = one_sided(jac, rows, sides, steps)
+            jac = one_sided(jac, rows, sides, steps, lambda finer: self._pieces(x, finer))
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
             par[:, k] = self._parameter_derivative(x, values, name, f, spans[k] if spans else None, b"".join(sides[:1]))
@@ -299,6 +299,9 @@ class Mechanism:
         if self._flat:
             return x + steps
         return np.array([self.retract(x, s) for s in steps])
+
+    def _pieces(self, x: Array, steps: Array) -> tuple[Array, list[bytes]]:
+        return self._evaluator.forces(self._moved(x, steps)).copy(), self._evaluator.sides
 
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""

@@ -13,11 +13,14 @@ from mjcont.numerics.differences import CENTRED, PARAMETER, Stencil
 from mjcont.numerics.problem import Array
 from mjcont.quantities import Parameter
 
+_FINER = (1e-2, 1e-4)
 _SMALLER = (1.0, 1e-3, 1e-6)
 
 
-def one_sided(jac: Array, rows: Array, sides: list[bytes], steps: Array) -> Array:
-    """Return a difference Jacobian whose columns do not straddle a limit or contact.
+def one_sided(
+    jac: Array, rows: Array, sides: list[bytes], steps: Array, at: Callable[[Array], tuple[Array, list[bytes]]]
+) -> Array:
+    """Return a difference Jacobian whose columns do not straddle a limit, a contact or another kink.
 
     Parameters
     ----------
@@ -25,14 +28,25 @@ def one_sided(jac: Array, rows: Array, sides: list[bytes], steps: Array) -> Arra
     rows : (1 + m, n) forces at the state and at the state moved by `steps`.
     sides : of each row, as `Evaluator.sides` gives them.
     steps : (m, n), each along one coordinate.
+    at : returns forces and sides at the state moved by other steps; asked where all of a column's points are beyond.
     """
-    straddling = {j for r, step in enumerate(steps, 1) if sides[r] != sides[0] for j in np.flatnonzero(step)}
-    out = jac.copy()
-    for j in straddling:
-        same = [r for r, step in enumerate(steps, 1) if step[j] != 0.0 and sides[r] == sides[0]]
-        if same:
-            r = min(same, key=lambda r: abs(steps[r - 1][j]))
-            out[:, j] = (rows[r] - rows[0]) / steps[r - 1][j]
+    out, rows = jac.copy(), rows.copy()
+    left = {int(j) for r, step in enumerate(steps, 1) if sides[r] != sides[0] for j in np.flatnonzero(step)}
+    tried, forces, pieces = steps, rows[1:], sides[1:]
+    for size in (*_FINER, 0.0):
+        for j in sorted(left):
+            same = [r for r, step in enumerate(tried) if step[j] != 0.0 and pieces[r] == sides[0]]
+            if same:
+                r = min(same, key=lambda r: abs(tried[r][j]))
+                out[:, j] = (forces[r] - rows[0]) / tried[r][j]
+                left.remove(j)
+        if not left or not size:
+            break
+        # a stiff contact yields by less than the usual step
+        columns = sorted(left)
+        finer = size * np.diag(np.abs(steps).max(axis=0))[columns]
+        tried = np.concatenate([finer, -finer])
+        forces, pieces = at(tried)
     return out
 
 
