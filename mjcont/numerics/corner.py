@@ -1,4 +1,4 @@
-"""Corners: points at which a limit, contact, cable or saturation begins or ceases to act, so that a curve turns sharply.
+"""Corners: points at which a limit, contact, cable or saturation begins or ceases to act and a curve turns sharply.
 
 Equilibria are continuous there but their derivatives are not. A corner is crossed by leaving it along the tangent of
 the other side, in the direction in which the new set of loaded constraints persists.
