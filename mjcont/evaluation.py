@@ -106,8 +106,8 @@ class Evaluator:
         n = self.model.nv
         for size in _VELOCITY_STEPS:
             h = size * scale
-            steps = np.concatenate([np.diag(h), -np.diag(h), np.zeros((1, n))])[: 2 * n + self.nonsmooth]
-            rows = self.forces(np.broadcast_to(x, (len(steps), len(x))), steps)
+            steps = np.concatenate([np.diag(h), -np.diag(h)])
+            rows = self.forces(np.broadcast_to(x, (2 * n, len(x))), steps)
             if len(set(self.sides)) <= 1:
                 break
-        return ((rows[n : 2 * n] - rows[:n]) / (2.0 * h)[:, None]).T
+        return ((rows[n:] - rows[:n]) / (2.0 * h)[:, None]).T

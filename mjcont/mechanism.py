@@ -211,7 +211,7 @@ class Mechanism:
 
         def at(offset: float) -> tuple[Array, bytes]:
             self._writer.write(self.parameters, {**values, name: values[name] + offset})
-            return self._evaluator.forces(x[None])[0].copy(), b"".join(self._evaluator.sides)
+            return self._evaluator.forces(x[None])[0], b"".join(self._evaluator.sides)
 
         rule, h = self.parameter_stencil(name, values[name], span)
         return parameter_rate(at, f, side, FORWARD if self.parameters[name].affine else rule, h)

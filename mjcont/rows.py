@@ -114,8 +114,8 @@ def _side(m: mujoco.MjModel, d: mujoco.MjData) -> bytes:
     """Return what tells apart the smooth pieces of the forces: the constraints that carry load."""
     loaded = d.efc_force != 0.0
     kind, index = d.efc_type[loaded], d.efc_id[loaded]
-    touching = kind >= _CONTACT
-    if touching.any():  # a contact's number depends on the others: its geoms do not
+    if d.ncon:  # a contact's number depends on the others: its geoms do not
+        touching = kind >= _CONTACT
         pair = d.contact.geom[index[touching]]
         index[touching] = pair[:, 0] * m.ngeom + pair[:, 1]
     return kind.tobytes() + index.tobytes()

@@ -63,10 +63,15 @@ def parameter_rate(
     """
     total, straddles = np.zeros_like(f), False
     for offset, weight in zip(rule.offsets, rule.weights, strict=True):
-        forces, piece = at(offset * step) if offset else (f, side)
+        if not offset:
+            total += weight * f
+            continue
+        forces, piece = at(offset * step)
         total += weight * forces
         straddles |= piece != side
-    for h in (step * s * size for size in _SMALLER for s in (1.0, -1.0)) if straddles else ():
+    if not straddles:
+        return total / step
+    for h in (step * s * size for size in _SMALLER for s in (1.0, -1.0)):
         forces, piece = at(h)
         if piece == side:
             return (forces - f) / h
