@@ -331,7 +331,7 @@ def equilibrium_detectors(
         HopfDetector(system, settings, neutral),
         MultipleDetector(system, settings),
     ]
-    if getattr(system.problem, "constrained", False):
+    if getattr(system.problem, "nonsmooth", False):
         detectors.append(CornerDetector(system, settings))
     for name, value in zeros.items():
         monitor = monitor_of(system.problem, name, value)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
+from mjcont.kinks import Kinks
 from mjcont.numerics.problem import Array
 from mjcont.rows import ConstrainedRows, Rows
 from mjcont.writer import FieldWriter
 
 _MAX_BATCHES = 32
-_ACCELERATION_STEP = 1e-3
-_CONTACT_STEP = 1e-4
+_ACCELERATION_STEPS = (1e-3, 1e-6)
+_VELOCITY_STEPS = (1.0, 1e-3, 1e-6)
 
 
 class Evaluator:
@@ -25,7 +26,9 @@ class Evaluator:
     def __init__(self, model: mujoco.MjModel, writer: FieldWriter, constrained: bool) -> None:
         self.model, self.writer = model, writer
         self.count = 0
-        self._constrained = ConstrainedRows(model) if constrained else None
+        self._kinks = Kinks.of(model)
+        self._constrained = ConstrainedRows(model, self._kinks) if constrained else None
+        self._last: Rows | ConstrainedRows | None = self._constrained
         self._batches: dict[int, Rows] = {}
         self._data = mujoco.MjData(model)
 
@@ -34,7 +37,7 @@ class Evaluator:
         if rows is None:
             if len(self._batches) >= _MAX_BATCHES:
                 self._batches.clear()
-            rows = self._batches[count] = Rows(self.model, count)
+            rows = self._batches[count] = Rows(self.model, count, self._kinks)
         return rows
 
     def forces(self, qpos: Array, qvel: Array | None = None) -> Array:
@@ -42,12 +45,18 @@ class Evaluator:
         self.count += len(qpos)
         if self._constrained is not None:
             return self._constrained.forward(qpos, qvel, self.writer)
-        return self._rows(len(qpos)).forward(qpos, qvel, self.writer)
+        rows = self._last = self._rows(len(qpos))
+        return rows.forward(qpos, qvel, self.writer)
 
     @property
     def sides(self) -> list[bytes]:
         """What tells apart the smooth pieces of the forces in the last evaluation (see `rows.one_sided`)."""
-        return self._constrained.sides if self._constrained is not None else []
+        return self._last.sides if self.nonsmooth and self._last is not None else []
+
+    @property
+    def nonsmooth(self) -> bool:
+        """Whether the forces are smooth in pieces only."""
+        return self._constrained is not None or self._kinks is not None
 
     def accelerations(self, qpos: Array, qvel: Array) -> Array:
         """Return qacc for every row, (m, nv)."""
@@ -59,11 +68,14 @@ class Evaluator:
         return rows.acceleration()
 
     def active(self, x: Array) -> frozenset[str]:
-        """Return the names of the limits and contacts that carry load at rest."""
-        if self._constrained is None:
+        """Return the names of the limits and contacts that carry load at rest, and of what `kinks` finds busy."""
+        if self._constrained is not None:
+            self.count += 1
+            return self._constrained.active(x, self.writer)
+        if self._kinks is None:
             return frozenset()
-        self.count += 1
-        return self._constrained.active(x, self.writer)
+        self.forces(x[None])
+        return self._kinks.names(self.model, self._rows(1).codes[0])
 
     def position(self, x: Array) -> mujoco.MjData:
         """Return data of our own with everything that depends on position computed."""
@@ -76,20 +88,27 @@ class Evaluator:
         """Return the mass matrix, (nv, nv); a soft constraint adds to it, since its force depends on acceleration."""
         n = self.model.nv
         if self._constrained is not None:
-            self.count += 2 * n
-            steps = np.concatenate([np.eye(n), -np.eye(n)])
             many = np.broadcast_to(x, (2 * n, len(x)))
-            rows = self._constrained.forward(many, None, self.writer, _ACCELERATION_STEP * steps)
-            return (rows[n:] - rows[:n]).T / (2.0 * _ACCELERATION_STEP)
+            for h in _ACCELERATION_STEPS:
+                self.count += 2 * n
+                rows = self._constrained.forward(many, None, self.writer, h * np.concatenate([np.eye(n), -np.eye(n)]))
+                if len(set(self._constrained.sides)) == 1:
+                    break
+            return (rows[n:] - rows[:n]).T / (2.0 * h)
         dense = np.empty((n, n))
         mujoco.mj_fullM(self.model, self.position(x), dense)
         return dense
 
     def damping(self, x: Array, scale: Array) -> Array:
-        """Return -d forces/dv, (nv, nv), centred with the steps `scale`: exact for linear dampers."""
+        """Return -d forces/dv, (nv, nv), centred with the steps `scale`: exact for linear dampers.
+
+        Where such a velocity releases a contact or saturates an actuator, smaller ones are taken.
+        """
         n = self.model.nv
-        if self._constrained is not None:
-            scale = _CONTACT_STEP * scale  # so slow that no contact opens
-        steps = np.concatenate([np.diag(scale), -np.diag(scale)])
-        rows = self.forces(np.broadcast_to(x, (2 * n, len(x))), steps)
-        return ((rows[n:] - rows[:n]) / (2.0 * scale)[:, None]).T
+        for size in _VELOCITY_STEPS:
+            h = size * scale
+            steps = np.concatenate([np.diag(h), -np.diag(h)])
+            rows = self.forces(np.broadcast_to(x, (2 * n, len(x))), steps)
+            if len(set(self.sides)) <= 1:
+                break
+        return ((rows[n:] - rows[:n]) / (2.0 * h)[:, None]).T

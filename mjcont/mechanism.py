@@ -22,13 +22,13 @@ from mjcont import features, loading, rigid
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.evaluation import Evaluator
 from mjcont.mjcf import exact_text
-from mjcont.numerics.differences import CENTRED, PARAMETER, Stencil, jacobian_from_rows, jacobian_steps, stencil
+from mjcont.numerics.differences import FORWARD, Stencil, jacobian_from_rows, jacobian_steps, stencil
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
 from mjcont.observables import model_observables
 from mjcont.parameters import Declaration, collect_parameters, make_parameter
 from mjcont.paths import bush_names
 from mjcont.quantities import Observable, Parameter
-from mjcont.rows import one_sided
+from mjcont.sides import difference_rule, one_sided, parameter_rate
 from mjcont.writer import FieldWriter, Gravity
 
 
@@ -82,6 +82,7 @@ class Mechanism:
         self._sensor_data = mujoco.MjData(self._observed)
         self.constrained = loading.is_constrained(model)
         self._evaluator = Evaluator(self._model, self._writer, self.constrained)
+        self.nonsmooth = self._evaluator.nonsmooth
         self._held: tuple[str, ...] = ()
 
     # -- making one ----------------------------------------------------------------------------------------
@@ -185,13 +186,13 @@ class Mechanism:
         self._writer.write(self.parameters, values)
         moved = np.concatenate([x[None], self._moved(x, steps)])
         rows = self._evaluator.forces(moved)
-        f = rows[0].copy()
+        f, sides = rows[0].copy(), self._evaluator.sides
         jac = jacobian_from_rows(rows[1:], self.state_scale, rule)
-        if self.constrained:
-            jac = one_sided(jac, rows, self._evaluator.sides, steps)
+        if sides:
+            jac = one_sided(jac, rows, sides, steps, lambda finer: self._pieces(x, finer))
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
-            par[:, k] = self._parameter_derivative(x, values, name, f, spans[k] if spans else None)
+            par[:, k] = self._parameter_derivative(x, values, name, f, spans[k] if spans else None, b"".join(sides[:1]))
         self._writer.write(self.parameters, values)
         if self._held:
             mass = self._evaluator.mass(x)
@@ -199,31 +200,20 @@ class Mechanism:
         return Linearization(f, jac, par)
 
     def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
-        """Return the difference rule and step for derivatives in a parameter.
+        """Return the difference rule and step for derivatives in a parameter."""
+        return difference_rule(self.parameters[name], value, span)
 
-        Forces are affine in controls, stiffnesses and the like, where two points are exact for any step.
-        """
-        parameter = self.parameters[name]
-        size = max(abs(value), 1e-2 * (span or parameter.bounds[1] - parameter.bounds[0]))
-        if parameter.springs:  # a step must not lead to a negative stiffness, which MuJoCo has not
-            return (CENTRED, 0.1 * abs(value)) if parameter.affine else (PARAMETER, PARAMETER.step * abs(value))
-        if parameter.affine:
-            return CENTRED, max(1.0, abs(value)) if parameter.kind == "control" else 0.1 * size
-        if parameter.unit == "rad":
-            return PARAMETER, min(PARAMETER.step, PARAMETER.step * size * 100.0)
-        return PARAMETER, PARAMETER.step * size
+    def _parameter_derivative(
+        self, x: Array, values: Values, name: str, f: Array, span: float | None, side: bytes
+    ) -> Array:
+        """Return d tau/dp, (nv,); `f` is the residual at x, on the smooth piece `side`."""
 
-    def _parameter_derivative(self, x: Array, values: Values, name: str, f: Array, span: float | None) -> Array:
-        """Return d tau/dp, (nv,); `f` is the residual at x, where affine forces need one more point only."""
+        def at(offset: float) -> tuple[Array, bytes]:
+            self._writer.write(self.parameters, {**values, name: values[name] + offset})
+            return self._evaluator.forces(x[None])[0], b"".join(self._evaluator.sides)
+
         rule, h = self.parameter_stencil(name, values[name], span)
-        if self.parameters[name].affine:
-            self._writer.write(self.parameters, {**values, name: values[name] + h})
-            return (self._evaluator.forces(x[None])[0] - f) / h
-        total = np.zeros(self.n)
-        for offset, weight in zip(rule.offsets, rule.weights, strict=True):
-            self._writer.write(self.parameters, {**values, name: values[name] + offset * h})
-            total += weight * self._evaluator.forces(x[None])[0]
-        return total / h
+        return parameter_rate(at, f, side, FORWARD if self.parameters[name].affine else rule, h)
 
     def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
         """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
@@ -308,6 +298,9 @@ class Mechanism:
         if self._flat:
             return x + steps
         return np.array([self.retract(x, s) for s in steps])
+
+    def _pieces(self, x: Array, steps: Array) -> tuple[Array, list[bytes]]:
+        return self._evaluator.forces(self._moved(x, steps)).copy(), self._evaluator.sides
 
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""

@@ -8,15 +8,18 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
+from mjcont.kinks import Kinks, codes_at, element_name
 from mjcont.numerics.problem import Array
 from mjcont.writer import FieldWriter
+
+_CONTACT = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)
 
 
 class Rows:
     """A batch of a fixed number of rows, evaluated on one thread (waking a second costs more than it gives)."""
 
-    def __init__(self, model: mujoco.MjModel, count: int) -> None:
-        self._model = model
+    def __init__(self, model: mujoco.MjModel, count: int, kinks: Kinks | None) -> None:
+        self._model, self._kinks = model, kinks
         self._batch = Batch(model, count, nthread=1)
         self._version = -1
         self._qpos = self._batch.bind("qpos")
@@ -24,6 +27,7 @@ class Rows:
         self._inputs: list[tuple[Array, Array]] | None = None
         self._forces = self._batch.bind("qfrc_smooth")
         self._acceleration = self._batch.bind("qacc")
+        self._told_apart = {f: self._batch.bind(f) for f in kinks.fields} if kinks is not None else {}
 
     def forward(self, qpos: Array, qvel: Array | None, writer: FieldWriter) -> Array:
         """Evaluate the rows' states with the writer's inputs and return qfrc_smooth, a live view (m, nv)."""
@@ -42,6 +46,17 @@ class Rows:
         """Return qacc of the last evaluation, a live view (m, nv)."""
         return self._acceleration
 
+    @property
+    def codes(self) -> Array:
+        """The smooth piece of the forces that each row of the last evaluation lies on, (m, elements)."""
+        assert self._kinks is not None
+        return self._kinks.codes(self._model, self._told_apart)
+
+    @property
+    def sides(self) -> list[bytes]:
+        """What tells apart the smooth pieces of the forces in the last evaluation, by rows."""
+        return [row.tobytes() for row in self.codes]
+
 
 class ConstrainedRows:
     """Evaluations of a model with constraints: the forces at zero acceleration, constraint forces among them.
@@ -52,8 +67,8 @@ class ConstrainedRows:
     damping, and call stable what only creeps.
     """
 
-    def __init__(self, model: mujoco.MjModel) -> None:
-        self._model = model
+    def __init__(self, model: mujoco.MjModel, kinks: Kinks | None) -> None:
+        self._model, self._kinks = model, kinks
         self._data = mujoco.MjData(model)
         self.sides: list[bytes] = []
 
@@ -68,8 +83,9 @@ class ConstrainedRows:
             d.qvel[:] = 0.0 if qvel is None else qvel[i]
             d.qacc[:] = 0.0 if qacc is None else qacc[i]
             mujoco.mj_inverse(m, d)
-            self.sides.append(_side(d))
             mujoco.mj_fwdActuation(m, d)
+            side = _side(m, d)
+            self.sides.append(side if self._kinks is None else side + codes_at(self._kinks, m, d).tobytes())
             out[i] = d.qfrc_actuator - d.qfrc_inverse
             if d.ncon and (qvel is not None or qacc is not None):
                 out[i] -= _contact_friction(m, d)
@@ -87,12 +103,16 @@ class ConstrainedRows:
         return out
 
     def active(self, x: Array, writer: FieldWriter) -> frozenset[str]:
-        """Return the names of the limits and contacts that carry load at rest."""
+        """Return the names of the limits and contacts that carry load at rest, and of what `kinks` finds busy."""
         m, d = self._model, self._data
         writer.inputs.put(d)
         d.qpos[:], d.qvel[:], d.qacc[:] = x, 0.0, 0.0
         mujoco.mj_inverse(m, d)
-        return frozenset(_loaded(m, d))
+        found = frozenset(_loaded(m, d))
+        if self._kinks is None:
+            return found
+        mujoco.mj_fwdActuation(m, d)
+        return found | self._kinks.names(m, codes_at(self._kinks, m, d))
 
 
 def _contact_friction(m: mujoco.MjModel, d: mujoco.MjData) -> Array:
@@ -112,48 +132,34 @@ def _contact_friction(m: mujoco.MjModel, d: mujoco.MjData) -> Array:
     return out
 
 
-def _side(d: mujoco.MjData) -> bytes:
+def _side(m: mujoco.MjModel, d: mujoco.MjData) -> bytes:
     """Return what tells apart the smooth pieces of the forces: the constraints that carry load."""
     loaded = d.efc_force != 0.0
-    return d.efc_type[loaded].tobytes() + d.efc_id[loaded].tobytes()
-
-
-def one_sided(jac: Array, rows: Array, sides: list[bytes], steps: Array) -> Array:
-    """Return a difference Jacobian whose columns do not straddle a limit or contact.
-
-    Parameters
-    ----------
-    jac : (n, n) from centred differences.
-    rows : (1 + m, n) forces at the state and at the state moved by `steps`.
-    sides : of each row, as `ConstrainedRows` leaves them.
-    steps : (m, n), each along one coordinate.
-    """
-    straddling = {j for r, step in enumerate(steps, 1) if sides[r] != sides[0] for j in np.flatnonzero(step)}
-    out = jac.copy()
-    for j in straddling:
-        same = [r for r, step in enumerate(steps, 1) if step[j] != 0.0 and sides[r] == sides[0]]
-        if same:
-            r = min(same, key=lambda r: abs(steps[r - 1][j]))
-            out[:, j] = (rows[r] - rows[0]) / steps[r - 1][j]
-    return out
+    kind, index = d.efc_type[loaded], d.efc_id[loaded]
+    if d.ncon:  # a contact's number depends on the others: its geoms do not
+        touching = kind >= _CONTACT
+        pair = d.contact.geom[index[touching]]
+        index[touching] = pair[:, 0] * m.ngeom + pair[:, 1]
+    return kind.tobytes() + index.tobytes()
 
 
 def _loaded(m: mujoco.MjModel, d: mujoco.MjData) -> Iterator[str]:
+    """Yield the names of the limits and contacts that carry load; two geoms may touch at several points."""
     kinds = mujoco.mjtConstraint
+    points: dict[tuple[int, ...], set[int]] = {}
     for r in range(d.nefc):
         kind, index = kinds(d.efc_type[r]), int(d.efc_id[r])
         if d.efc_force[r] <= 0.0:
             continue
         if kind == kinds.mjCNSTR_LIMIT_JOINT:
             side = "lower" if d.qpos[m.jnt_qposadr[index]] < np.mean(m.jnt_range[index]) else "upper"
-            yield f"{side} limit of {_name(m, mujoco.mjtObj.mjOBJ_JOINT, index)}"
+            yield f"{side} limit of {element_name(m, mujoco.mjtObj.mjOBJ_JOINT, index)}"
         elif kind == kinds.mjCNSTR_LIMIT_TENDON:
             side = "lower" if d.ten_length[index] < np.mean(m.tendon_range[index]) else "upper"
-            yield f"{side} limit of {_name(m, mujoco.mjtObj.mjOBJ_TENDON, index)}"
+            yield f"{side} limit of {element_name(m, mujoco.mjtObj.mjOBJ_TENDON, index)}"
         elif kind.name.startswith("mjCNSTR_CONTACT"):
-            pair = [_name(m, mujoco.mjtObj.mjOBJ_GEOM, int(g)) for g in d.contact[index].geom]
-            yield f"contact of {pair[0]} and {pair[1]}"
-
-
-def _name(m: mujoco.MjModel, kind: mujoco.mjtObj, index: int) -> str:
-    return mujoco.mj_id2name(m, kind, index) or f"{kind.name.removeprefix('mjOBJ_').lower()}{index}"
+            points.setdefault(tuple(int(g) for g in d.contact[index].geom), set()).add(index)
+    for geoms, found in points.items():
+        first, second = (element_name(m, mujoco.mjtObj.mjOBJ_GEOM, g) for g in geoms)
+        for k in range(len(found)):
+            yield f"contact{f' {k + 1}' if k else ''} of {first} and {second}"

@@ -106,3 +106,71 @@ def test_a_loop_closed_by_connect_bends_like_a_bush_of_its_effective_stiffness()
     ]
     assert len(folds[0]) >= 2
     assert folds[0] == pytest.approx(folds[1], rel=1e-6)
+
+
+STIFF = 'condim="1" solref="-1e6 -2000" solimp="0.9 0.9 0.001 0.5 2"'
+
+
+@pytest.fixture(scope="module", params=['type="plane" size="1 1 1"', 'type="box" size="1 1 0.1" pos="0 0 -0.1"'])
+def tumbling(request):
+    """A box of 2 kg and half-width 0.1 m on a floor, turned by a moment M."""
+    mechanism = mc.Mechanism.from_xml(
+        f"""<mujoco model="box"><option gravity="0 0 -9.81"/><worldbody><geom name="floor" {request.param}/>
+        <body pos="0 0 0.1"><joint name="x" type="slide" axis="1 0 0" stiffness="50" damping="5"/>
+        <joint name="z" type="slide" axis="0 0 1" damping="5"/><joint name="q" axis="0 1 0" damping="1"/>
+        <geom name="box" type="box" size="0.1 0.1 0.1" mass="2"/></body></worldbody>
+        <contact><pair geom1="box" geom2="floor" {STIFF}/></contact>
+        <actuator><general name="M" joint="q"/></actuator></mujoco>"""
+    )
+    return mc.continue_equilibria(mechanism, "M", bounds=(-3.0, 3.0))
+
+
+def test_a_box_tips_where_two_of_its_four_contacts_release(tumbling):
+    tips = tumbling.of_kind("CO")
+    assert len(tips) >= 4
+    for p in tips:
+        assert abs(p["M"]) == pytest.approx(2.0 * 9.81 * 0.1, rel=1e-5)
+        assert p.note.startswith("contact 3 of floor and box ")
+        assert p.note.endswith("M turns back: a non-smooth fold")
+
+
+def test_a_tipping_box_balances_on_its_edge_and_falls(tumbling):
+    tilts = np.mod(tumbling["q"], math.pi / 2.0)
+    on_edge = np.flatnonzero((tilts > 0.01) & (tilts < math.pi / 2.0 - 0.01))
+    assert len(on_edge) > 30
+    for i in on_edge:
+        lever = 0.1 * (math.cos(tilts[i]) - math.sin(tilts[i]))
+        assert tumbling["M"][i] == pytest.approx(2.0 * 9.81 * lever, abs=1e-4)
+        assert tumbling.row(i).stability == "unstable"
+
+
+def test_a_ball_that_is_lifted_leaves_the_floor_when_its_weight_is_carried():
+    mechanism = mc.Mechanism.from_xml(
+        f"""<mujoco model="ball"><option gravity="0 0 -9.81"/><worldbody>
+        <geom name="floor" type="plane" size="1 1 1"/><body pos="0 0 0.1">
+        <joint name="z" type="slide" axis="0 0 1" damping="5" stiffness="100" springref="0"/>
+        <geom name="ball" size="0.1" mass="2"/></body></worldbody>
+        <contact><pair geom1="ball" geom2="floor" {STIFF}/></contact>
+        <actuator><general name="F" joint="z"/></actuator></mujoco>"""
+    )
+    branch = mc.continue_equilibria(mechanism, "F", bounds=(0.0, 40.0))
+    (corner,) = branch.of_kind("CO")
+    assert corner.note == "contact of floor and ball releases"
+    assert corner["F"] == pytest.approx(2.0 * 9.81, abs=1e-6)
+    free = branch["F"] > 20.0
+    assert branch["z"][free] == pytest.approx((branch["F"][free] - 2.0 * 9.81) / 100.0, abs=1e-8)
+
+
+def test_a_ball_on_the_floor_moves_as_its_contact_has_it():
+    mechanism = mc.Mechanism.from_xml(
+        f"""<mujoco model="ball"><option gravity="0 0 -9.81"/><worldbody>
+        <geom name="floor" type="plane" size="1 1 1"/><body pos="0 0 0.1">
+        <joint name="z" type="slide" axis="0 0 1"/><geom name="ball" size="0.1" mass="2"/></body></worldbody>
+        <contact><pair geom1="ball" geom2="floor" {STIFF}/></contact></mujoco>"""
+    )
+    point = mc.find_equilibrium(mechanism)
+    # m a = -(a + b v / d + k r / d) / R with 1 / R = d / ((1 - d) A): a velocity of 1 m/s would lift the ball
+    weight = float(mechanism.simulation_model().body_invweight0[1, 0])
+    ratio = IMPEDANCE / ((1.0 - IMPEDANCE) * weight * 2.0)
+    expected = np.roots([1.0 + ratio, ratio * 2000.0 / IMPEDANCE, ratio * 1e6 / IMPEDANCE])
+    assert np.sort(point.eigenvalues.real) == pytest.approx(np.sort(expected), rel=1e-4)

@@ -26,6 +26,7 @@ class Stencil:
 SECOND_ORDER = Stencil((1.0, -1.0), (0.5, -0.5), 2e-6)
 FOURTH_ORDER = Stencil((1.0, -1.0, 2.0, -2.0), (2 / 3, -2 / 3, -1 / 12, 1 / 12), 1e-4)
 CENTRED = Stencil((1.0, -1.0), (0.5, -0.5), 1e-3)
+FORWARD = Stencil((0.0, 1.0), (-1.0, 1.0), 1e-3)
 PARAMETER = Stencil((1.0, -1.0, 2.0, -2.0), (2 / 3, -2 / 3, -1 / 12, 1 / 12), 1e-3)
 
 
