@@ -53,13 +53,15 @@ class Mechanism:
         1 rad for rotations, the model's size in metres for translations.
     mjcf : str or None
         The model's text; None for a Mechanism made from a compiled model.
+    notes : tuple of str
+        What the user should know about the model as loaded, such as files that are not there.
     """
 
     second_order = True
 
-    def __init__(self, model: mujoco.MjModel, mjcf: str | None = None) -> None:
+    def __init__(self, model: mujoco.MjModel, mjcf: str | None = None, notes: tuple[str, ...] = ()) -> None:
         loading.refuse_unsupported(model)
-        self.mjcf = mjcf
+        self.mjcf, self.notes = mjcf, notes
         self.name = loading.model_name(model)
         self.nq, self.n = model.nq, model.nv
         self.qpos0 = model.qpos0.copy()
@@ -91,9 +93,7 @@ class Mechanism:
         ModelError
             If the file does not exist, MuJoCo rejects it, or the model has a feature that cannot be treated.
         """
-        text, folder = loading.read_source(source)
-        spec = loading.parse(text, folder, str(source) if "<" not in str(source) else "XML text")
-        return cls(loading.compile_spec(spec), loading.portable_text(spec, text))
+        return cls(*loading.load(source))
 
     @classmethod
     def from_spec(cls, spec: mujoco.MjSpec) -> Mechanism:
