@@ -257,7 +257,7 @@ class Mechanism:
 
     def rigid_modes(self, x: Array, values: Values) -> tuple[str, ...]:
         """Return the names of the rigid-body motions that no force opposes near a state."""
-        return rigid.zero_modes(self, x, values)
+        return rigid.zero_modes(self, self._model, self._evaluator.position, x, values)
 
     @property
     def held(self) -> tuple[str, ...]:
@@ -265,8 +265,8 @@ class Mechanism:
         return self._held
 
     def rigid_directions(self, x: Array) -> dict[str, Array]:
-        """Return the tangent vectors (nv,) that move the whole model as a rigid body, by name."""
-        return rigid.twist_directions(self._model, self._evaluator.position(x))
+        """Return the tangent vectors (nv,) along the held rigid-body modes, by name."""
+        return rigid.directions(self._model, self._evaluator.position(x), self._held)
 
     def holding(self, modes: Sequence[str]) -> Mechanism:
         """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""
@@ -281,8 +281,7 @@ class Mechanism:
         return rigid.without_modes(step, self._evaluator.mass(x), self._held_directions(x))
 
     def _held_directions(self, x: Array) -> Array:
-        directions = self.rigid_directions(x)
-        found = [directions[m] for m in self._held if m in directions]
+        found = list(self.rigid_directions(x).values())
         return np.column_stack(found) if found else np.zeros((self.n, 0))
 
     # -- the manifold ----------------------------------------------------------------------------------------

@@ -91,7 +91,7 @@ def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spec
 def _noise_bound(mass: Array, stiffness: Array, ev: Array) -> Array:
     """Return a bound on the error of each eigenvalue from the noise of a difference K, ignoring its structure."""
     lightest = float(np.abs(np.diag(mass)).min())
-    rate = np.maximum(np.abs(ev), np.sqrt(np.median(np.abs(ev))))
+    rate = np.maximum(np.abs(ev), max(np.sqrt(np.median(np.abs(ev))), 1e-300))
     noise = _DIFFERENCE_NOISE * np.abs(stiffness).max() / (lightest * rate)
     return np.minimum(noise, 1e-2 * np.abs(ev) + 1e-12)
 
