@@ -247,6 +247,8 @@ def _prepare(
             problem.observable(name)
     problem, notes = hold_rigid_modes(problem, x, values)
     refuse_pushing(problem, parameter, x, values)
+    if notes:
+        problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
     found = find_start(problem, x, values)
     origin = _start_name(start, keyframe, state)
     if found.failure:
@@ -259,11 +261,20 @@ def _prepare(
     return _Prepared(walker, found.x, f"from {origin}", neutral, notes)
 
 
-def hold_rigid_modes(problem: Any, x: Array, values: Values) -> tuple[Any, tuple[str, ...]]:
-    """Return the problem with its rigid-body zero modes held, and a note that names them."""
+def hold_rigid_modes(
+    problem: Any, x: Array, values: Values, ranges: Mapping[str, tuple[float, float]] | None = None
+) -> tuple[Any, tuple[str, ...]]:
+    """Return the problem with its rigid-body zero modes held, and a note that names them.
+
+    A motion that something opposes elsewhere in the `ranges` of parameters is not held.
+    """
     modes = problem.rigid_modes(x, values) if hasattr(problem, "rigid_modes") else ()
+    for name, ends in (ranges or {}).items():
+        for end in ends:
+            beside = {**values, name: 0.7 * end + 0.3 * values[name]}
+            modes = problem.rigid_modes(x, beside, modes) if modes else ()
     if not modes:
-        return problem, ()
+        return problem.holding(()) if ranges and hasattr(problem, "holding") else problem, ()
     return problem.holding(modes), (f"rigid-body zero modes held: {', '.join(modes)}",)
 
 

@@ -255,9 +255,9 @@ class Mechanism:
 
     # -- rigid-body zero modes -------------------------------------------------------------------------------
 
-    def rigid_modes(self, x: Array, values: Values) -> tuple[str, ...]:
-        """Return the names of the rigid-body motions that no force opposes near a state."""
-        return rigid.zero_modes(self, self._model, self._evaluator.position, x, values)
+    def rigid_modes(self, x: Array, values: Values, among: Sequence[str] | None = None) -> tuple[str, ...]:
+        """Return the names of the rigid-body motions that no force opposes near a state, of all or `among` some."""
+        return rigid.zero_modes(self.holding(()), self._model, self._evaluator.position, x, values, among)
 
     @property
     def held(self) -> tuple[str, ...]:

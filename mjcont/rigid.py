@@ -19,7 +19,9 @@ NAMES = [f"translation along {a}" for a in _AXES] + [f"rotation about {a}" for a
 _THROUGH = re.compile(r"(rotation about [xyz]) through \((.*)\)")
 _RIGID = 1e-9
 _NOTHING = 1e-12
+_SAME = 1e-6
 _STATES = 12
+_STIFF = 1e-5  # a soft constraint stiffens with its violation, which differences see as a force
 
 
 def twist(name: str) -> np.ndarray:
@@ -49,7 +51,10 @@ def directions(model: mujoco.MjModel, data: mujoco.MjData, names: Iterable[str])
 
 def _bodies(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[np.ndarray, np.ndarray]:
     """Return the velocities of all bodies that can move, per tangent coordinate and per twist: (6 m, nv), (6 m, 6)."""
-    moving = np.flatnonzero(model.body_weldid)
+    moves = model.body_dofnum > 0
+    for body in range(1, model.nbody):
+        moves[body] |= moves[model.body_parentid[body]]
+    moving = np.flatnonzero(moves)
     jac, moved = np.zeros((len(moving), 6, model.nv)), np.zeros((len(moving), 6, 6))
     for k, body in enumerate(moving):
         mujoco.mj_jacBodyCom(model, data, jac[k, :3], jac[k, 3:], body)
@@ -62,7 +67,14 @@ def _cross(v: np.ndarray) -> np.ndarray:
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 
-def zero_modes(mechanism: Any, model: mujoco.MjModel, position: Any, x: np.ndarray, values: Any) -> tuple[str, ...]:
+def zero_modes(
+    mechanism: Any,
+    model: mujoco.MjModel,
+    position: Any,
+    x: np.ndarray,
+    values: Any,
+    among: Iterable[str] | None = None,
+) -> tuple[str, ...]:
     """Return the names of the rigid motions that no generalised force opposes anywhere near a state.
 
     With J z = B t the bodies move by the twist t. Zero modes are the twists that the joints allow, (1 - J J+) B t = 0,
@@ -71,6 +83,7 @@ def zero_modes(mechanism: Any, model: mujoco.MjModel, position: Any, x: np.ndarr
     Parameters
     ----------
     position : callable that returns MuJoCo's data at a state.
+    among : names of motions to try, instead of all.
     """
     rows = []
     for k in range(_STATES):
@@ -84,9 +97,13 @@ def zero_modes(mechanism: Any, model: mujoco.MjModel, position: Any, x: np.ndarr
         rows.append((jac @ z - moved) / np.abs(moved).max())
         work = np.abs(force).max() * np.abs(z).max()
         rows.append((force @ z / work if work > 0 else np.zeros(6))[None])
-    _, sizes, vh = np.linalg.svd(np.concatenate(rows))
-    free = vh[sizes <= _RIGID]
-    return tuple(name for name in _named(free) if _unopposed(mechanism, model, position, x, values, name))
+    opposed = np.concatenate(rows)
+    if among is None:
+        _, sizes, vh = np.linalg.svd(opposed)
+        names = _named(vh[sizes <= _RIGID])
+    else:
+        names = [n for n in among if np.linalg.norm(opposed @ twist(n)) <= _SAME]
+    return tuple(name for name in names if _unopposed(mechanism, model, position, x, values, name))
 
 
 def _named(free: np.ndarray) -> list[str]:
@@ -94,13 +111,13 @@ def _named(free: np.ndarray) -> list[str]:
     found = []
     for i, name in enumerate(NAMES):
         unit = np.eye(6)[i]
-        if np.linalg.norm(unit - free.T @ (free @ unit)) < 1e-6:
+        if np.linalg.norm(unit - free.T @ (free @ unit)) < _SAME:
             found.append(name)
         elif i >= 3:
             weights = np.linalg.lstsq(free[:, 3:].T, unit[3:], rcond=None)[0]
             whole = free.T @ weights
             point = np.cross(unit[3:], whole[:3])
-            if np.linalg.norm(np.concatenate([np.cross(point, unit[3:]), unit[3:]]) - whole) < 1e-6:
+            if np.linalg.norm(np.concatenate([np.cross(point, unit[3:]), unit[3:]]) - whole) < _SAME:
                 found.append(f"{name} through ({', '.join(f'{c + 0.0:.9g}' for c in np.round(point, 9))})")
     return found
 
@@ -112,7 +129,7 @@ def _unopposed(mechanism: Any, model: mujoco.MjModel, position: Any, x: np.ndarr
         return False
     local = mechanism.linearize(x, values, ())
     turned = 2.0 * np.abs(local.f).max()
-    return bool(np.abs(local.jac @ z).max() <= (1e-7 * (np.abs(local.jac).max() or 1.0) + turned) * np.abs(z).max())
+    return bool(np.abs(local.jac @ z).max() <= (_STIFF * (np.abs(local.jac).max() or 1.0) + turned) * np.abs(z).max())
 
 
 def rate(jac: np.ndarray, mass: np.ndarray) -> float:
