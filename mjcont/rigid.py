@@ -85,7 +85,7 @@ def zero_modes(
     position : callable that returns MuJoCo's data at a state.
     among : names of motions to try, instead of all.
     """
-    rows = []
+    barred, work, largest = [], [], 0.0
     for k in range(_STATES):
         step = 0.1 * mechanism.state_scale * np.cos(1.0 + k + (1 + k) * np.arange(mechanism.n)) if k else None
         beside = x if step is None else mechanism.retract(x, step)
@@ -94,10 +94,10 @@ def zero_modes(
         if not len(jac):
             return ()
         z = np.linalg.lstsq(jac, moved, rcond=None)[0]
-        rows.append((jac @ z - moved) / np.abs(moved).max())
-        work = np.abs(force).max() * np.abs(z).max()
-        rows.append((force @ z / work if work > 0 else np.zeros(6))[None])
-    opposed = np.concatenate(rows)
+        barred.append((jac @ z - moved) / np.abs(moved).max())
+        work.append(force @ z / (np.abs(z).max() or 1.0))
+        largest = max(largest, np.abs(force).max())
+    opposed = np.concatenate([*barred, np.array(work) / (largest or 1.0)])
     if among is None:
         _, sizes, vh = np.linalg.svd(opposed)
         names = _named(vh[sizes <= _RIGID])
