@@ -268,14 +268,15 @@ def hold_rigid_modes(
 
     A motion that something opposes elsewhere in the `ranges` of parameters is not held.
     """
-    modes = problem.rigid_modes(x, values) if hasattr(problem, "rigid_modes") else ()
+    modes = found = problem.rigid_modes(x, values) if hasattr(problem, "rigid_modes") else ()
     for name, ends in (ranges or {}).items():
         for end in ends:
             beside = {**values, name: 0.7 * end + 0.3 * values[name]}
             modes = problem.rigid_modes(x, beside, modes) if modes else ()
-    if not modes:
-        return problem.holding(()) if ranges and hasattr(problem, "holding") else problem, ()
-    return problem.holding(modes), (f"rigid-body zero modes held: {', '.join(modes)}",)
+    lost = [m for m in found if m not in modes]
+    notes = [f"rigid-body zero modes held: {', '.join(modes)}"] if modes else []
+    notes += [f"zero modes at the start that something opposes elsewhere, not held: {', '.join(lost)}"] if lost else []
+    return problem.holding(modes) if modes or lost else problem, tuple(notes)
 
 
 def refuse_pushing(problem: Any, parameter: str, x: Array, values: Values) -> None:
@@ -283,11 +284,13 @@ def refuse_pushing(problem: Any, parameter: str, x: Array, values: Values) -> No
     held = getattr(problem, "held", ())
     if not held:
         return
-    push = problem.linearize(x, values, (parameter,)).par[:, 0]
+    local = problem.linearize(x, values, (parameter,))
+    push = local.par[:, 0]
+    noise = 1e-12 * np.abs(local.jac).max()
     directions = problem.rigid_directions(x)
     for name in held:
         z = directions.get(name)
-        if z is not None and abs(z @ push) > 1e-9 * np.abs(push).max() * np.abs(z).max():
+        if z is not None and abs(z @ push) > (1e-9 * np.abs(push).max() + noise) * np.abs(z).max():
             raise StartError(
                 f"{parameter} pushes along the rigid-body mode '{name}', which nothing opposes: "
                 "there is no equilibrium unless it is zero"

@@ -110,8 +110,8 @@ def copy_model(model: mujoco.MjModel) -> mujoco.MjModel:
 def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     """Return the private copy on which residuals are evaluated.
 
-    Its integrator is one for which qacc is the forward-dynamics acceleration, sensors are off, and controls are
-    never clamped (bounds outside a ctrlrange are refused before). A ctrlrange that the model itself does not clamp
+    Its integrator is one for which qacc is the forward-dynamics acceleration, its solver is not cut short for speed,
+    sensors are off, and controls are never clamped (bounds outside a ctrlrange are refused before). A ctrlrange that the model itself does not clamp
     is no limit.
     """
     private = copy_model(model)
@@ -121,6 +121,7 @@ def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     private.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
     private.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # sparse constraint Jacobians are wrong in MuJoCo 4.0.0
     private.opt.disableflags |= int(_DISABLE.mjDSBL_SENSOR) | int(_DISABLE.mjDSBL_CLAMPCTRL)
+    private.opt.iterations, private.opt.ls_iterations = max(private.opt.iterations, 100), max(private.opt.ls_iterations, 50)
     without_sensor_filters(model)
     return private
 
@@ -180,6 +181,12 @@ def model_name(model: mujoco.MjModel) -> str:
 def coordinates_are_flat(model: mujoco.MjModel) -> bool:
     """Whether qpos is a vector space: slides and hinges only."""
     return bool(np.all(np.isin(model.jnt_type, [_JOINT.mjJNT_SLIDE, _JOINT.mjJNT_HINGE])))
+
+
+def forces_saturate(model: mujoco.MjModel) -> bool:
+    """Whether an actuator's force, or the sum of them on a joint or tendon, has limits."""
+    limits = (model.actuator_forcelimited, model.jnt_actfrclimited, model.tendon_actfrclimited)
+    return any(bool(limited.any()) for limited in limits)
 
 
 def state_scale(model: mujoco.MjModel) -> np.ndarray:

@@ -68,7 +68,7 @@ class Mechanism:
         self._loaded = loading.copy_model(model)
         self._observed = model
         self._model = loading.evaluation_copy(model)
-        self._flat = loading.coordinates_are_flat(model)
+        self._flat, self._saturates = loading.coordinates_are_flat(model), loading.forces_saturate(model)
         self.state_scale = loading.state_scale(model)
         self.parameters = collect_parameters(self._model)
         self.observables = model_observables(model)
@@ -202,11 +202,11 @@ class Mechanism:
     def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter.
 
-        Forces are affine in controls, stiffnesses and the like, where two points are exact for any step.
+        Forces are affine in controls, stiffnesses and the like unless they saturate: two points are exact for any step.
         """
         parameter = self.parameters[name]
         size = max(abs(value), 1e-2 * (span or parameter.bounds[1] - parameter.bounds[0]))
-        if parameter.affine:
+        if parameter.affine and not self._saturates:
             return CENTRED, max(1.0, abs(value)) if parameter.kind == "control" else 0.1 * size
         if parameter.unit == "rad":
             return PARAMETER, min(PARAMETER.step, PARAMETER.step * size * 100.0)
@@ -215,7 +215,7 @@ class Mechanism:
     def _parameter_derivative(self, x: Array, values: Values, name: str, f: Array, span: float | None) -> Array:
         """Return d tau/dp, (nv,); `f` is the residual at x, where affine forces need one more point only."""
         rule, h = self.parameter_stencil(name, values[name], span)
-        if self.parameters[name].affine:
+        if rule is CENTRED:
             self._writer.write(self.parameters, {**values, name: values[name] + h})
             return (self._evaluator.forces(x[None])[0] - f) / h
         total = np.zeros(self.n)

@@ -2,7 +2,8 @@
 
 Their grammar is object:pattern.attribute[index]*factor+offset,
 
-with `object` one of joint, body, site, geom, tendon, actuator, equality, option, control.
+with `object` one of joint, body, site, geom, tendon, actuator, equality, option, control. What has no name in the model
+is called by its place: joint0, tendon1, ...
 """
 
 from __future__ import annotations
@@ -112,10 +113,10 @@ def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
         raise unknown_name("object in a target path", kind, [*_OBJECTS, "option", "control"])
     if attr is None:
         raise ParameterError(f"target '{path}': an attribute is missing, as in {kind}:{pattern}.stiffness")
-    names = element_names(model, kind)
-    ids = [i for i, n in enumerate(names) if n and fnmatch.fnmatchcase(n, pattern)]
+    names = [n or f"{kind}{i}" for i, n in enumerate(element_names(model, kind))]
+    ids = [i for i, n in enumerate(names) if fnmatch.fnmatchcase(n, pattern)]
     if not ids:
-        listing = ", ".join(n for n in names if n) or "none"
+        listing = ", ".join(names) or "none"
         raise ParameterError(f"target '{path}' matches no {kind} of the model. Its {kind} names: {listing}.")
     field, entries = _field_entries(model, kind, attr, ids)
     if match["index"] is not None:
