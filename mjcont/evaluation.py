@@ -11,6 +11,8 @@ from mjcont.writer import FieldWriter
 
 _MAX_BATCHES = 32
 _ACCELERATION_STEP = 1e-3
+# of the scale: at unit speed drag counts that is not there at rest, and stops are left
+_VELOCITY_STEP = 1e-4
 
 
 class Evaluator:
@@ -84,7 +86,15 @@ class Evaluator:
         return dense
 
     def damping(self, x: Array, scale: Array) -> Array:
-        """Return -d forces/dv, (nv, nv), centred with the steps `scale`: exact for linear dampers."""
+        """Return -d forces/dv at rest, (nv, nv), centred: exact for linear dampers, and for drag that is quadratic."""
+        m = self.model
+        polynomials = (m.dof_dampingpoly, m.tendon_dampingpoly, m.actuator_dampingpoly)
+        if m.opt.density or any(p.any() for p in polynomials):
+            step = _VELOCITY_STEP * scale
+            return 2.0 * self._damping(x, step) - self._damping(x, 2.0 * step)
+        return self._damping(x, scale if self._constrained is None else _VELOCITY_STEP * scale)
+
+    def _damping(self, x: Array, scale: Array) -> Array:
         n = self.model.nv
         steps = np.concatenate([np.diag(scale), -np.diag(scale)])
         rows = self.forces(np.broadcast_to(x, (2 * n, len(x))), steps)

@@ -121,7 +121,8 @@ def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     private.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
     private.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # sparse constraint Jacobians are wrong in MuJoCo 4.0.0
     private.opt.disableflags |= int(_DISABLE.mjDSBL_SENSOR) | int(_DISABLE.mjDSBL_CLAMPCTRL)
-    private.opt.iterations, private.opt.ls_iterations = max(private.opt.iterations, 100), max(private.opt.ls_iterations, 50)
+    private.opt.iterations = max(private.opt.iterations, 100)
+    private.opt.ls_iterations = max(private.opt.ls_iterations, 50)
     without_sensor_filters(model)
     return private
 

@@ -56,10 +56,10 @@ def _bodies(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[np.ndarray, np.
         moves[body] |= moves[model.body_parentid[body]]
     moving = np.flatnonzero(moves)
     jac, moved = np.zeros((len(moving), 6, model.nv)), np.zeros((len(moving), 6, 6))
-    for k, body in enumerate(moving):
-        mujoco.mj_jacBodyCom(model, data, jac[k, :3], jac[k, 3:], body)
+    for k, mover in enumerate(moving):
+        mujoco.mj_jacBodyCom(model, data, jac[k, :3], jac[k, 3:], mover)
         moved[k] = np.eye(6)
-        moved[k, :3, 3:] = -_cross(data.xipos[body])
+        moved[k, :3, 3:] = -_cross(data.xipos[mover])
     return jac.reshape(-1, model.nv), moved.reshape(-1, 6)
 
 
