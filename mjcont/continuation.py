@@ -249,6 +249,8 @@ def _prepare(
             problem.observable(name)
     problem, notes = hold_rigid_modes(problem, x, values)
     refuse_pushing(problem, parameter, x, values)
+    if notes:
+        problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
     found = find_start(problem, x, values)
     origin = _start_name(start, keyframe, state)
     if found.failure:
@@ -261,12 +263,22 @@ def _prepare(
     return _Prepared(walker, found.x, f"from {origin}", neutral, notes)
 
 
-def hold_rigid_modes(problem: Any, x: Array, values: Values) -> tuple[Any, tuple[str, ...]]:
-    """Return the problem with its rigid-body zero modes held, and a note that names them."""
-    modes = problem.rigid_modes(x, values) if hasattr(problem, "rigid_modes") else ()
-    if not modes:
-        return problem, ()
-    return problem.holding(modes), (f"rigid-body zero modes held: {', '.join(modes)}",)
+def hold_rigid_modes(
+    problem: Any, x: Array, values: Values, ranges: Mapping[str, tuple[float, float]] | None = None
+) -> tuple[Any, tuple[str, ...]]:
+    """Return the problem with its rigid-body zero modes held, and a note that names them.
+
+    A motion that something opposes elsewhere in the `ranges` of parameters is not held.
+    """
+    modes = found = problem.rigid_modes(x, values) if hasattr(problem, "rigid_modes") else ()
+    for name, ends in (ranges or {}).items():
+        for end in ends:
+            beside = {**values, name: 0.7 * end + 0.3 * values[name]}
+            modes = problem.rigid_modes(x, beside, modes) if modes else ()
+    lost = [m for m in found if m not in modes]
+    notes = [f"rigid-body zero modes held: {', '.join(modes)}"] if modes else []
+    notes += [f"zero modes at the start that something opposes elsewhere, not held: {', '.join(lost)}"] if lost else []
+    return problem.holding(modes) if modes or lost else problem, tuple(notes)
 
 
 def refuse_pushing(problem: Any, parameter: str, x: Array, values: Values) -> None:
@@ -274,11 +286,13 @@ def refuse_pushing(problem: Any, parameter: str, x: Array, values: Values) -> No
     held = getattr(problem, "held", ())
     if not held:
         return
-    push = problem.linearize(x, values, (parameter,)).par[:, 0]
+    local = problem.linearize(x, values, (parameter,))
+    push = local.par[:, 0]
+    noise = 1e-12 * np.abs(local.jac).max()
     directions = problem.rigid_directions(x)
     for name in held:
         z = directions.get(name)
-        if z is not None and abs(z @ push) > 1e-9 * np.abs(push).max() * np.abs(z).max():
+        if z is not None and abs(z @ push) > (1e-9 * np.abs(push).max() + noise) * np.abs(z).max():
             raise StartError(
                 f"{parameter} pushes along the rigid-body mode '{name}', which nothing opposes: "
                 "there is no equilibrium unless it is zero"

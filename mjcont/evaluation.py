@@ -13,6 +13,8 @@ from mjcont.writer import FieldWriter
 _MAX_BATCHES = 32
 _ACCELERATION_STEPS = (1e-3, 1e-6)
 _VELOCITY_STEPS = (1.0, 1e-3, 1e-6)
+# at unit speed drag counts that is not there at rest
+_DRAG_STEPS = (1e-4, 1e-6)
 
 
 class Evaluator:
@@ -100,15 +102,29 @@ class Evaluator:
         return dense
 
     def damping(self, x: Array, scale: Array) -> Array:
-        """Return -d forces/dv, (nv, nv), centred with the steps `scale`: exact for linear dampers.
+        """Return -d forces/dv at rest, (nv, nv), centred: exact for linear dampers, and for drag that is quadratic.
 
         Where such a velocity releases a contact or saturates an actuator, smaller ones are taken.
         """
-        n = self.model.nv
-        for size in _VELOCITY_STEPS:
-            h = size * scale
-            steps = np.concatenate([np.diag(h), -np.diag(h)])
-            rows = self.forces(np.broadcast_to(x, (2 * n, len(x))), steps)
-            if len(set(self.sides)) <= 1:
+        for size in _DRAG_STEPS if self._drag else _VELOCITY_STEPS:
+            found, smooth = self._damping(x, size * scale)
+            if self._drag:
+                found = 2.0 * found - self._damping(x, 2.0 * size * scale)[0]
+            if smooth:
                 break
-        return ((rows[n:] - rows[:n]) / (2.0 * h)[:, None]).T
+        return found
+
+    @property
+    def _drag(self) -> bool:
+        """Whether forces depend on velocity otherwise than linearly."""
+        m = self.model
+        return bool(m.opt.density) or any(
+            p.any() for p in (m.dof_dampingpoly, m.tendon_dampingpoly, m.actuator_dampingpoly)
+        )
+
+    def _damping(self, x: Array, h: Array) -> tuple[Array, bool]:
+        """Return -d forces/dv by steps `h`, and whether they stay on one smooth piece of the forces."""
+        n = self.model.nv
+        steps = np.concatenate([np.diag(h), -np.diag(h)])
+        rows = self.forces(np.broadcast_to(x, (2 * n, len(x))), steps)
+        return ((rows[n:] - rows[:n]) / (2.0 * h)[:, None]).T, len(set(self.sides)) <= 1

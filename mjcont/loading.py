@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import copy
 import math
+import re
+import warnings
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
+from mjcont import assets
 from mjcont.equalities import describe_equalities
 from mjcont.errors import ModelError, ParameterError, unknown_name
 from mjcont.features import touching
@@ -21,6 +24,7 @@ from mjcont.topology import describe_topology
 if TYPE_CHECKING:
     from mjcont.mechanism import Mechanism
 
+_OTHER_FILES = re.compile(r"<(include|model)\b")
 _JOINT = mujoco.mjtJoint
 _DISABLE = mujoco.mjtDisableBit
 
@@ -57,7 +61,7 @@ def read_source(source: str | Path) -> tuple[str, Path | None]:
 def parse(text: str, folder: Path | None, label: str) -> mujoco.MjSpec:
     """Return the spec of an XML text; relative files are looked up in `folder`."""
     try:
-        if folder is not None and "<include" in text:
+        if folder is not None and _OTHER_FILES.search(text):
             return mujoco.MjSpec.from_file(label)
         spec = mujoco.MjSpec.from_string(text)
     except (ValueError, mujoco.FatalError) as error:
@@ -75,12 +79,28 @@ def compile_spec(spec: mujoco.MjSpec) -> mujoco.MjModel:
         raise ModelError(f"model '{spec.modelname}': MuJoCo cannot compile it: {_one_line(error)}") from error
 
 
-def portable_text(spec: mujoco.MjSpec, text: str) -> str:
-    """Return XML that stands alone: the text as written, or flattened where it includes other files."""
-    return exact_text(spec) if "<include" in text else text
+def load(source: str | Path) -> tuple[mujoco.MjModel, str, tuple[str, ...]]:
+    """Return the compiled model of a source, XML that stands alone, and notes on what the user should know.
+
+    The XML is the text as written, or flattened where it needs other files; what needs a missing file is left out.
+    """
+    text, folder = read_source(source)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        spec = parse(text, folder, "XML text" if folder is None else str(source))
+        place = (folder or Path()).resolve()
+        notes, dropped = assets.read_notes(spec), assets.drop_missing(spec, place)
+        rewritten = assets.anchor_files(spec, place) or bool(dropped) or bool(_OTHER_FILES.search(text))
+        model = compile_spec(spec)
+        notes = tuple(dict.fromkeys((*notes, *dropped, *(f"MuJoCo: {_one_line(w.message)}" for w in caught))))
+        if rewritten:
+            assets.write_notes(spec, notes)
+            text = exact_text(spec)
+            model = compile_spec(parse(text, None, "with everything it includes"))
+    return model, text, notes
 
 
-def _one_line(error: Exception) -> str:
+def _one_line(error: Warning | Exception | str) -> str:
     return " ".join(str(error).split())
 
 
@@ -117,9 +137,10 @@ def start_state(
 def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     """Return the private copy on which residuals are evaluated.
 
-    Its integrator is one for which qacc is the forward-dynamics acceleration, sensors are off, and controls are
-    never clamped (bounds outside a ctrlrange are refused before). Controls have reached their actuators, and dry
-    friction is off. `model` itself, which observables are read from, loses what delays controls and filters sensors.
+    Its integrator is one for which qacc is the forward-dynamics acceleration, its solver is not cut short for speed,
+    sensors are off, and controls are never clamped (bounds outside a ctrlrange are refused before). Controls have
+    reached their actuators, and dry friction is off. `model` itself, which observables are read from, loses what delays
+    controls and filters sensors.
     """
     model.actuator_delay[:] = 0.0
     private = copy_model(model)
@@ -132,6 +153,8 @@ def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     private.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # sparse constraint Jacobians are wrong in MuJoCo 4.0.0
     private.opt.disableflags |= int(_DISABLE.mjDSBL_SENSOR) | int(_DISABLE.mjDSBL_CLAMPCTRL)
     private.opt.disableflags |= int(_DISABLE.mjDSBL_FRICTIONLOSS)
+    private.opt.iterations = max(private.opt.iterations, 100)
+    private.opt.ls_iterations = max(private.opt.ls_iterations, 50)
     without_sensor_filters(model)
     return private
 

@@ -55,13 +55,17 @@ class Mechanism:
         1 rad for rotations, the model's size in metres for translations.
     mjcf : str or None
         The model's text; None for a Mechanism made from a compiled model.
+    notes : tuple of str
+        What the user should know about the model as loaded, such as files that are not there.
     """
 
     second_order = True
 
-    def __init__(self, model: mujoco.MjModel, mjcf: str | None = None, friction: str = "frictionless") -> None:
+    def __init__(
+        self, model: mujoco.MjModel, mjcf: str | None = None, friction: str = "frictionless", notes: Sequence[str] = ()
+    ) -> None:
         features.refuse_unsupported(model)
-        self.notes = (*features.friction_notes(model, friction), *features.activation_notes(model))
+        self.notes = (*notes, *features.friction_notes(model, friction), *features.activation_notes(model))
         model = loading.owned_copy(model)
         self.mjcf = mjcf
         self.name = loading.model_name(model)
@@ -99,9 +103,8 @@ class Mechanism:
         ModelError
             If the file does not exist, MuJoCo rejects it, or the model has a feature that cannot be treated.
         """
-        text, folder = loading.read_source(source)
-        spec = loading.parse(text, folder, str(source) if "<" not in str(source) else "XML text")
-        return cls(loading.compile_spec(spec), loading.portable_text(spec, text), friction)
+        model, text, notes = loading.load(source)
+        return cls(model, text, friction, notes)
 
     @classmethod
     def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
@@ -246,9 +249,9 @@ class Mechanism:
 
     # -- rigid-body zero modes -------------------------------------------------------------------------------
 
-    def rigid_modes(self, x: Array, values: Values) -> tuple[str, ...]:
-        """Return the names of the rigid-body motions that no force opposes near a state."""
-        return rigid.zero_modes(self, x, values)
+    def rigid_modes(self, x: Array, values: Values, among: Sequence[str] | None = None) -> tuple[str, ...]:
+        """Return the names of the rigid-body motions that no force opposes near a state, of all or `among` some."""
+        return rigid.zero_modes(self.holding(()), self._model, self._evaluator.position, x, values, among)
 
     @property
     def held(self) -> tuple[str, ...]:
@@ -256,8 +259,8 @@ class Mechanism:
         return self._held
 
     def rigid_directions(self, x: Array) -> dict[str, Array]:
-        """Return the tangent vectors (nv,) that move the whole model as a rigid body, by name."""
-        return rigid.twist_directions(self._model, self._evaluator.position(x))
+        """Return the tangent vectors (nv,) along the held rigid-body modes, by name."""
+        return rigid.directions(self._model, self._evaluator.position(x), self._held)
 
     def holding(self, modes: Sequence[str]) -> Mechanism:
         """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""
@@ -272,8 +275,7 @@ class Mechanism:
         return rigid.without_modes(step, self._evaluator.mass(x), self._held_directions(x))
 
     def _held_directions(self, x: Array) -> Array:
-        directions = self.rigid_directions(x)
-        found = [directions[m] for m in self._held if m in directions]
+        found = list(self.rigid_directions(x).values())
         return np.column_stack(found) if found else np.zeros((self.n, 0))
 
     # -- the manifold ----------------------------------------------------------------------------------------

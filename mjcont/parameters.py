@@ -16,7 +16,7 @@ from mjcont.quantities import Parameter, Target, default_bounds
 
 GRAVITY_ANGLE, LOAD_FACTOR = "gravity_angle", "load_factor"
 DECLARATION_PREFIX = "mjcont/"
-_SETTINGS = frozenset({"gravity_axis"})
+_SETTINGS = frozenset({"gravity_axis", "notes"})
 
 
 @dataclass(frozen=True, slots=True)

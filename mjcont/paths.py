@@ -2,8 +2,9 @@
 
 Their grammar is object:pattern.attribute[index]*factor+offset,
 
-with `object` one of joint, body, site, geom, tendon, actuator, equality, mocap, option, control.
-`equality:NAME.stiffness` is no field but the effective stiffness of a constraint (see equalities.py).
+with `object` one of joint, body, site, geom, tendon, actuator, equality, mocap, option, control. What has no name
+in the model is called by its place: joint0, tendon1, ... `equality:NAME.stiffness` is no field but the effective
+stiffness of a constraint (see equalities.py).
 """
 
 from __future__ import annotations
@@ -156,12 +157,13 @@ def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
         raise unknown_name("object in a target path", kind, [*_OBJECTS, "option", "control"])
     if attr is None:
         raise ParameterError(f"target '{path}': an attribute is missing, as in {kind}:{pattern}.stiffness")
-    names = element_names(model, kind)
+    names = [n or f"{kind}{i}" for i, n in enumerate(element_names(model, kind))]
+    ids = [i for i, n in enumerate(names) if fnmatch.fnmatchcase(n, pattern)]
     if kind == "mocap":
-        names = [n if model.body_mocapid[i] >= 0 else "" for i, n in enumerate(names)]
-    ids = [i for i, n in enumerate(names) if n and fnmatch.fnmatchcase(n, pattern)]
+        ids = [i for i in ids if model.body_mocapid[i] >= 0]
+        names = [n for i, n in enumerate(names) if model.body_mocapid[i] >= 0]
     if not ids:
-        listing = ", ".join(n for n in names if n) or "none"
+        listing = ", ".join(names) or "none"
         raise ParameterError(f"target '{path}' matches no {kind} of the model. Its {kind} names: {listing}.")
     if (kind, attr) == ("equality", "stiffness"):
         if match["index"] is not None:

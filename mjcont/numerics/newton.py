@@ -217,6 +217,8 @@ def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array,
         if size < 1e-3 and np.max(np.abs(newton) / scale) < 1e-9:
             return x, ""
         dt *= 2.0 if size < 0.1 else 1.0
+    if np.abs(local.f).max() <= 1e-9 * abs(local.raw_jac).max() * np.max(scale):
+        return x, "the motion from the start came to rest, but equilibria are not isolated there: K is singular"
     return x, f"the motion from the start had not come to rest after {most} steps: it may drift or have no equilibrium"
 
 

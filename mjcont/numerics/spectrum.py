@@ -78,22 +78,27 @@ def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spec
     if _symmetric(k) and _symmetric(c) and np.linalg.eigvalsh(0.5 * (c + c.T))[0] >= -_ROUNDING * np.abs(c).max():
         return _conservative(pencil.mass, c, 0.5 * (k + k.T))
     ev = quadratic_eigenvalues(pencil.mass, c, k)
-    noise = _noise_bound(pencil.mass, k, ev)
-    close = np.flatnonzero((np.abs(ev.real) <= noise) & (ev.imag >= 0))
+    noise, zero = _noise_bound(pencil.mass, k, ev)
+    close = np.flatnonzero(((np.abs(ev.real) <= noise) | zero) & (ev.imag >= 0))
     if scatter is not None and len(close):
         samples = scatter()
         for i in close:
             measured = _measured_noise(pencil.mass, c, k, ev[i], samples)
-            noise[np.abs(ev - ev[i]) == 0] = noise[np.abs(ev - ev[i].conj()) == 0] = min(measured, noise[i])
+            settled = measured if zero[i] else min(measured, noise[i])
+            noise[np.abs(ev - ev[i]) == 0] = noise[np.abs(ev - ev[i].conj()) == 0] = settled
     return _classify(ev, noise, conservative=False)
 
 
-def _noise_bound(mass: Array, stiffness: Array, ev: Array) -> Array:
-    """Return a bound on the error of each eigenvalue from the noise of a difference K, ignoring its structure."""
+def _noise_bound(mass: Array, stiffness: Array, ev: Array) -> tuple[Array, Array]:
+    """Return a bound on the error of each eigenvalue from the noise of a difference K, and whether it may be zero.
+
+    The bound ignores the structure of K. A motion that nothing opposes or damps is a double eigenvalue 0, which the
+    noise splits into a pair s with s^2 of the order of its error over the mass.
+    """
     lightest = float(np.abs(np.diag(mass)).min())
-    rate = np.maximum(np.abs(ev), np.sqrt(np.median(np.abs(ev))))
-    noise = _DIFFERENCE_NOISE * np.abs(stiffness).max() / (lightest * rate)
-    return np.minimum(noise, 1e-2 * np.abs(ev) + 1e-12)
+    rate = np.maximum(np.abs(ev), max(np.sqrt(np.median(np.abs(ev))), 1e-300))
+    square = _DIFFERENCE_NOISE * np.abs(stiffness).max() / lightest
+    return np.minimum(square / rate, 1e-2 * np.abs(ev) + 1e-12), np.abs(ev) ** 2 <= square
 
 
 def _measured_noise(mass: Array, damping: Array, stiffness: Array, s: complex, samples: Array) -> float:
