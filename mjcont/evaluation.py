@@ -21,9 +21,9 @@ class Evaluator:
     count : evaluations so far; every row of a batch is one.
     """
 
-    def __init__(self, model: mujoco.MjModel, writer: FieldWriter, constrained: bool) -> None:
+    def __init__(self, model: mujoco.MjModel, writer: FieldWriter, constrained: bool, count: int = 0) -> None:
         self.model, self.writer = model, writer
-        self.count = 0
+        self.count = count
         self._constrained = ConstrainedRows(model) if constrained else None
         self._batches: dict[int, Rows] = {}
         self._data = mujoco.MjData(model)
@@ -39,6 +39,8 @@ class Evaluator:
     def forces(self, qpos: Array, qvel: Array | None = None) -> Array:
         """Return the generalised forces at zero acceleration for every row, (m, nv)."""
         self.count += len(qpos)
+        if self.writer.failure:  # no model there: a curve ends, as one does where a function leaves its domain
+            return np.full((len(qpos), self.model.nv), np.nan)
         if self._constrained is not None:
             return self._constrained.forward(qpos, qvel, self.writer)
         return self._rows(len(qpos)).forward(qpos, qvel, self.writer)
@@ -51,6 +53,8 @@ class Evaluator:
     def accelerations(self, qpos: Array, qvel: Array) -> Array:
         """Return qacc for every row, (m, nv)."""
         self.count += len(qpos)
+        if self.writer.failure:
+            return np.full((len(qpos), self.model.nv), np.nan)
         if self._constrained is not None:
             return self._constrained.accelerations(qpos, qvel, self.writer)
         rows = self._rows(len(qpos))
@@ -59,7 +63,7 @@ class Evaluator:
 
     def active(self, x: Array) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""
-        if self._constrained is None:
+        if self._constrained is None or self.writer.failure:
             return frozenset()
         self.count += 1
         return self._constrained.active(x, self.writer)
@@ -73,6 +77,8 @@ class Evaluator:
     def mass(self, x: Array) -> Array:
         """Return the mass matrix, (nv, nv); a soft constraint adds to it, since its force depends on acceleration."""
         n = self.model.nv
+        if self.writer.failure:
+            return np.full((n, n), np.nan)
         if self._constrained is not None:
             self.count += 2 * n
             steps = np.concatenate([np.eye(n), -np.eye(n)])

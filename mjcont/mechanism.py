@@ -19,17 +19,18 @@ import mujoco
 import numpy as np
 
 from mjcont import loading, rigid
-from mjcont.errors import BoundsError, ParameterError, unknown_name
+from mjcont.errors import ParameterError, unknown_name
 from mjcont.evaluation import Evaluator
+from mjcont.geometry import Geometry, refuse_overlap
 from mjcont.mjcf import exact_text
-from mjcont.numerics.differences import CENTRED, PARAMETER, Stencil, jacobian_from_rows, jacobian_steps, stencil
+from mjcont.numerics.differences import Stencil, jacobian_from_rows, jacobian_steps, stencil
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
 from mjcont.observables import model_observables
-from mjcont.parameters import Declaration, collect_parameters, make_parameter
-from mjcont.paths import is_bush
-from mjcont.quantities import Observable, Parameter
+from mjcont.parameters import Declaration, check_value, collect_parameters, declared_parameter
+from mjcont.paths import bush_names
+from mjcont.quantities import Observable, Parameter, difference_rule
 from mjcont.rows import one_sided
-from mjcont.writer import FieldWriter, Gravity
+from mjcont.writer import FieldWriter
 
 
 class Mechanism:
@@ -57,28 +58,30 @@ class Mechanism:
 
     second_order = True
 
-    def __init__(self, model: mujoco.MjModel, mjcf: str | None = None) -> None:
+    def __init__(self, model: mujoco.MjModel, mjcf: str | None = None, geometry: Geometry | None = None) -> None:
         loading.refuse_unsupported(model)
         self.mjcf = mjcf
         self.name = loading.model_name(model)
         self.nq, self.n = model.nq, model.nv
         self.qpos0 = model.qpos0.copy()
-        self._loaded = loading.copy_model(model)
-        self._observed = model
-        self._model = loading.evaluation_copy(model)
         self._flat = loading.coordinates_are_flat(model)
         self.state_scale = loading.state_scale(model)
-        self.parameters = collect_parameters(self._model)
+        self._geometry = geometry or Geometry(None)
+        self.parameters = collect_parameters(loading.evaluation_copy(loading.copy_model(model)), self._geometry)
         self.observables = model_observables(model)
         self.declared: dict[str, Any] = {}
         self.keyframes = loading.keyframes(model)
-        gravity = Gravity.of(model)
-        self._writer = FieldWriter(self._model, self.parameters, gravity)
-        self._sensor_writer = FieldWriter(self._observed, self.parameters, gravity)
-        self._sensor_data = mujoco.MjData(self._observed)
         self.constrained = loading.is_constrained(model)
-        self._evaluator = Evaluator(self._model, self._writer, self.constrained)
         self._held: tuple[str, ...] = ()
+        self._own(self._geometry.with_layout(model, self.parameters))
+
+    def _own(self, model: mujoco.MjModel, evaluations: int = 0) -> None:
+        """Take a model: one copy for residuals, one for observables, one as loaded."""
+        self._loaded, self._observed = loading.copy_model(model), model
+        self._model = loading.evaluation_copy(model)
+        self._writer, self._sensor_writer = self.writer(self._model), self.writer(self._observed)
+        self._sensor_data = mujoco.MjData(self._observed)
+        self._evaluator = Evaluator(self._model, self._writer, self.constrained, evaluations)
 
     # -- making one ----------------------------------------------------------------------------------------
 
@@ -93,13 +96,13 @@ class Mechanism:
         """
         text, folder = loading.read_source(source)
         spec = loading.parse(text, folder, str(source) if "<" not in str(source) else "XML text")
-        return cls(loading.compile_spec(spec), loading.portable_text(spec, text))
+        return cls(loading.compile_spec(spec), loading.portable_text(spec, text), Geometry(spec, folder))
 
     @classmethod
     def from_spec(cls, spec: mujoco.MjSpec) -> Mechanism:
-        """Take an `MjSpec`; the spec itself is not kept."""
+        """Take an `MjSpec` (copied)."""
         model = loading.compile_spec(spec)
-        return cls(model, exact_text(spec))
+        return cls(model, exact_text(spec), Geometry(spec.copy()))
 
     @classmethod
     def from_model(cls, model: mujoco.MjModel) -> Mechanism:
@@ -108,8 +111,23 @@ class Mechanism:
 
     # -- parameters ----------------------------------------------------------------------------------------
 
-    def declare(self, name: str, *paths: str, unit: str = "", bounds: tuple[float, float] | None = None) -> Parameter:
-        """Declare a named parameter that acts on the fields given by `paths` and return it.
+    def declare(
+        self,
+        name: str,
+        *paths: str,
+        unit: str = "",
+        bounds: tuple[float, float] | None = None,
+        function: Callable[[Any, float], None] | None = None,
+        value: float | None = None,
+    ) -> Parameter:
+        """Declare a named parameter and return it.
+
+        Parameters
+        ----------
+        paths : str
+            Fields such as `joint:hip.stiffness`, or `spec:geom:rod.size[0]`, with which the model is compiled anew.
+        function : callable, optional
+            Instead of paths: `function(spec, value)` edits a copy of the `MjSpec`; `value` is the parameter's own.
 
         Raises
         ------
@@ -118,9 +136,12 @@ class Mechanism:
         """
         if name in self.parameters:
             raise ParameterError(f"parameter '{name}' is declared twice")
-        parameter = make_parameter(self._model_as_loaded(), Declaration(name, unit, bounds, tuple(paths)))
+        given = Declaration(name, unit, bounds, tuple(paths), function, value)
+        parameter = declared_parameter(self._model_as_loaded(), self._geometry, given)
         self.parameters[name] = parameter
-        self.declared[name] = {"paths": list(paths), "unit": parameter.unit, "bounds": list(parameter.bounds)}
+        self.declared[name] = given.record(parameter)
+        if parameter.kind == "spec" and self._loaded.body_simple.any():
+            self._own(self._geometry.with_layout(self._loaded, self.parameters), self.evaluations)
         return parameter
 
     def parameter(self, name: str) -> Parameter:
@@ -140,20 +161,16 @@ class Mechanism:
             If a name is unknown; close matches and all valid names are listed.
         BoundsError
             If a control lies outside its range in the model, where MuJoCo would clamp it.
+        ParameterError
+            If the model does not compile there.
         """
         given = given or {}
         for name, value in given.items():
-            parameter = self.parameter(name)
-            if not np.isfinite(value):
-                raise ParameterError(f"parameter '{name}': the value must be a finite number, got {value}")
-            low, high = parameter.hard_bounds
-            if not low <= value <= high:
-                raise BoundsError(
-                    f"{name} = {value:g} lies outside the actuator's ctrlrange [{low:g}, {high:g}], "
-                    "where MuJoCo would clamp it"
-                )
+            check_value(self.parameter(name), value)
         merged = {name: p.value for name, p in self.parameters.items()}
         merged.update({name: float(v) for name, v in given.items()})
+        if any(self.parameters[name].kind == "spec" for name in given):
+            self._geometry.model(self.parameters, merged)
         return merged
 
     def _model_as_loaded(self) -> mujoco.MjModel:
@@ -181,6 +198,7 @@ class Mechanism:
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
     ) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
+        refuse_overlap(self.parameters, values, tuple(wrt))
         rule = stencil(accurate)
         steps = jacobian_steps(self.state_scale, rule)
         self._writer.write(self.parameters, values)
@@ -188,7 +206,7 @@ class Mechanism:
         rows = self._evaluator.forces(moved)
         f = rows[0].copy()
         jac = jacobian_from_rows(rows[1:], self.state_scale, rule)
-        if self.constrained:
+        if self.constrained and not self.failure:
             jac = one_sided(jac, rows, self._evaluator.sides, steps)
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
@@ -200,17 +218,8 @@ class Mechanism:
         return Linearization(f, jac, par)
 
     def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
-        """Return the difference rule and step for derivatives in a parameter.
-
-        Forces are affine in controls, stiffnesses and the like, where two points are exact for any step.
-        """
-        parameter = self.parameters[name]
-        size = max(abs(value), 1e-2 * (span or parameter.bounds[1] - parameter.bounds[0]))
-        if parameter.affine:
-            return CENTRED, max(1.0, abs(value)) if parameter.kind == "control" else 0.1 * size
-        if parameter.unit == "rad":
-            return PARAMETER, min(PARAMETER.step, PARAMETER.step * size * 100.0)
-        return PARAMETER, PARAMETER.step * size
+        """Return the difference rule and step for derivatives in a parameter."""
+        return difference_rule(self.parameters[name], value, span)
 
     def _parameter_derivative(self, x: Array, values: Values, name: str, f: Array, span: float | None) -> Array:
         """Return d tau/dp, (nv,); `f` is the residual at x, where affine forces need one more point only."""
@@ -218,11 +227,8 @@ class Mechanism:
         if self.parameters[name].affine:
             self._writer.write(self.parameters, {**values, name: values[name] + h})
             return (self._evaluator.forces(x[None])[0] - f) / h
-        total = np.zeros(self.n)
-        for offset, weight in zip(rule.offsets, rule.weights, strict=True):
-            self._writer.write(self.parameters, {**values, name: values[name] + offset * h})
-            total += weight * self._evaluator.forces(x[None])[0]
-        return total / h
+        rows = [self.residual(x, {**values, name: values[name] + offset * h}) for offset in rule.offsets]
+        return np.asarray(rule.weights) @ np.array(rows) / h
 
     def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
         """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
@@ -241,17 +247,7 @@ class Mechanism:
 
     def periods(self, x: Array, values: Values) -> Array:
         """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
-        found = np.full(self.n, np.inf)
-        self._writer.write(self.parameters, values)
-        hinges = [j for j, (_, unit) in enumerate(self.state_labels) if unit == "rad" and self._flat]
-        beside = self.retract(x, 0.1 * self.state_scale * np.cos(1.0 + np.arange(self.n)))
-        turned = beside + 2.0 * np.pi * np.eye(self.nq)[hinges]
-        rows = self._evaluator.forces(np.concatenate([beside[None], turned])).copy()
-        change = np.abs(rows[1:] - rows[0]).max(axis=1, initial=0.0)
-        for j, c in zip(hinges, change, strict=True):
-            if c <= 1e-9 * np.abs(rows[0]).max():
-                found[j] = 2.0 * np.pi
-        return found
+        return rigid.full_turns(self, x, values)
 
     # -- rigid-body zero modes -------------------------------------------------------------------------------
 
@@ -314,6 +310,11 @@ class Mechanism:
         return self._evaluator.active(x)
 
     @property
+    def failure(self) -> str:
+        """Why the model does not compile at the values evaluated last; empty where it does."""
+        return self._writer.failure
+
+    @property
     def evaluations(self) -> int:
         """Forward evaluations so far; every row of a batch counts as one."""
         return self._evaluator.count
@@ -339,12 +340,13 @@ class Mechanism:
     ) -> Array:
         """Return observables for states (m, nq), at rest unless velocities (m, nv) are given; default all of them."""
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
-        out = np.empty((len(states), len(chosen)))
+        out = np.full((len(states), len(chosen)), np.nan)
         data = self._sensor_data
         for i, x in enumerate(states):
             self._sensor_writer.write(self.parameters, values if isinstance(values, Mapping) else values[i])
-            data.qpos[:] = x
-            data.qvel[:] = 0.0 if velocities is None else velocities[i]
+            if self._sensor_writer.failure:
+                continue
+            data.qpos[:], data.qvel[:] = x, 0.0 if velocities is None else velocities[i]
             data.ctrl[:] = self._sensor_writer.ctrl
             mujoco.mj_forward(self._observed, data)
             out[i] = [o.function(self._observed, data) for o in chosen]
@@ -358,6 +360,10 @@ class Mechanism:
         model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET) | int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
         return model
 
+    def writer(self, model: mujoco.MjModel) -> FieldWriter:
+        """Return what writes parameter values into a copy of the model."""
+        return FieldWriter(model, self.parameters, self._geometry)
+
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return a start: the state given, or a keyframe's, or qpos0.
 
@@ -369,15 +375,10 @@ class Mechanism:
             If `state` has the wrong shape.
         """
         if state is not None:
-            x = np.array(state, dtype=float)
-            if x.shape != (self.nq,):
-                raise ParameterError(f"state must have shape ({self.nq},) for model '{self.name}', got {x.shape}")
-            return x
-        if keyframe is None:
-            return self.qpos0.copy()
-        if keyframe not in self.keyframes:
+            return loading.checked_state(self._model, state)
+        if keyframe is not None and keyframe not in self.keyframes:
             raise unknown_name("keyframe", keyframe, self.keyframes)
-        return self.keyframes[keyframe].copy()
+        return (self.qpos0 if keyframe is None else self.keyframes[keyframe]).copy()
 
     @property
     def state_labels(self) -> list[tuple[str, str]]:
@@ -387,8 +388,7 @@ class Mechanism:
     @property
     def bushes(self) -> list[str]:
         """Names of the bush actuators."""
-        names = [mujoco.mj_id2name(self._model, mujoco.mjtObj.mjOBJ_ACTUATOR, i) for i in range(self._model.nu)]
-        return [n for i, n in enumerate(names) if is_bush(self._model, i)]
+        return bush_names(self._model)
 
     def __str__(self) -> str:
         """List what can be continued, what can be read, and where to start."""

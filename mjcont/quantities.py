@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from mjcont.numerics.differences import CENTRED, PARAMETER, Stencil
+
 # fields in which the forces are affine, so that two points give an exact derivative
 _AFFINE = frozenset(
     {
@@ -49,11 +51,19 @@ class Parameter:
         Its value in the loaded model (SI, radians).
     bounds : tuple of float
         Where the parameter makes sense; the default range of a continuation.
-    kind : {"control", "gravity", "field"}
+    kind : {"control", "gravity", "field", "spec"}
     targets : tuple of Target
-        Empty for gravity_angle and load_factor, which act together on the gravity vector.
+        Empty for gravity_angle and load_factor, which act together on the gravity vector, and for "spec".
     hard_bounds : tuple of float
         A control's range in MuJoCo, outside which it would be clamped.
+    edit : callable, optional
+        Of kind "spec": writes a value into a copy of the model's spec, which is then compiled.
+    source : str
+        Of kind "spec": its paths, or its function's name.
+    is_function : bool
+        Whether `edit` is a user's function, not made from paths.
+    touched : frozenset
+        Of kind "spec": the entries of the compiled model that change with it.
     """
 
     name: str
@@ -63,6 +73,26 @@ class Parameter:
     kind: str
     targets: tuple[Target, ...] = ()
     hard_bounds: tuple[float, float] = (-math.inf, math.inf)
+    edit: Callable[[Any, float], None] | None = None
+    source: str = ""
+    is_function: bool = False
+    touched: frozenset[tuple[str, int]] = frozenset()
+
+    @property
+    def cost(self) -> str:
+        """What a change of value costs: "nothing", "field", "field + constants" or "recompile"."""
+        if self.kind == "spec":
+            return "recompile"
+        if self.kind == "control":
+            return "nothing"
+        return "field + constants" if self.needs_constants else "field"
+
+    @property
+    def acts_on(self) -> str:
+        """What it acts on, in words or as paths."""
+        if self.kind == "field":
+            return " ".join(t.path for t in self.targets)
+        return self.source or self.kind
 
     @property
     def affine(self) -> bool:
@@ -75,6 +105,8 @@ class Parameter:
         """The entries of model fields on which it acts."""
         if self.kind == "gravity":
             return frozenset({("opt.gravity", i) for i in range(3)})
+        if self.kind == "spec":
+            return self.touched
         found = {(t.field, i) for t in self.targets for i in t.index}
         scaled = {("body_inertia", 3 * i + k) for field, i in found if field == "body_mass" for k in range(3)}
         return frozenset(found | scaled)
@@ -83,6 +115,20 @@ class Parameter:
     def needs_constants(self) -> bool:
         """Whether MuJoCo must recompute derived constants when the parameter changes."""
         return any(t.derives for t in self.targets)
+
+
+def difference_rule(parameter: Parameter, value: float, span: float | None = None) -> tuple[Stencil, float]:
+    """Return the difference rule and step for derivatives in a parameter of a model.
+
+    Forces are affine in controls, stiffnesses and the like, where two points are exact for any step. Elsewhere there
+    are four: a parameter of the spec costs as many compilations.
+    """
+    size = max(abs(value), 1e-2 * (span or parameter.bounds[1] - parameter.bounds[0]))
+    if parameter.affine:
+        return CENTRED, max(1.0, abs(value)) if parameter.kind == "control" else 0.1 * size
+    if parameter.unit == "rad":
+        return PARAMETER, min(PARAMETER.step, PARAMETER.step * size * 100.0)
+    return PARAMETER, PARAMETER.step * size
 
 
 @dataclass(frozen=True, slots=True)
