@@ -32,7 +32,7 @@ _KEPT = ("sensor_", "actuator_ctrllimited", "key_", "text_", "tuple_", "name", "
 _OPTIONS = ("gravity", "wind", "magnetic", "density", "viscosity", "impratio")
 _STATISTICS = ("meaninertia", "meanmass", "meansize", "extent", "center")
 _ACTING = ("body_", "geom_", "site_", "jnt_", "dof_", "qpos", "tendon_", "actuator_", "eq_", "wrap_")
-_SIZES = ("nq", "nv", "nbody", "njnt", "ngeom", "nsite", "ntendon", "nu", "neq", "nsensor", "nkey")
+_FIRST_SIZES = ("nq", "nv", "nbody", "njnt", "ngeom", "nsite", "ntendon", "nu", "neq", "nsensor", "nkey")
 _STRUCTURE = (
     "body_parentid", "jnt_type", "jnt_bodyid", "jnt_limited", "geom_bodyid", "geom_contype", "geom_conaffinity",
     "site_bodyid", "tendon_limited", "wrap_type", "wrap_objid", "eq_type", "eq_obj1id", "eq_obj2id", "eq_active0",
@@ -271,6 +271,14 @@ def _fields() -> tuple[str, ...]:
     return tuple(f for f in every if isinstance(getattr(model, f), np.ndarray))
 
 
+@cache
+def _sizes() -> tuple[str, ...]:
+    """Return the names of a model's sizes, those that a user knows first."""
+    model = mujoco.MjModel.from_xml_string("<mujoco/>")
+    every = (s for s in dir(model) if s.startswith("n") and isinstance(getattr(model, s), int))
+    return (*_FIRST_SIZES, *(s for s in every if s not in ("narena", "nbuffer")))
+
+
 def _touched(a: mujoco.MjModel, b: mujoco.MjModel) -> frozenset[tuple[str, int]]:
     """Return the entries of acting fields and options in which two models differ."""
     pairs = [(f, getattr(a, f), getattr(b, f)) for f in _fields() if f.startswith(_ACTING)]
@@ -280,9 +288,8 @@ def _touched(a: mujoco.MjModel, b: mujoco.MjModel) -> frozenset[tuple[str, int]]
 
 def _structure_change(a: mujoco.MjModel, b: mujoco.MjModel) -> str:
     """Say in what the structure of two models differs; empty if in nothing."""
-    sizes = [*_SIZES, *sorted(s for s in dir(a) if s.startswith("n") and isinstance(getattr(a, s), int))]
-    for size in sizes:
-        if size not in ("narena", "nbuffer") and getattr(a, size) != getattr(b, size):
+    for size in _sizes():
+        if getattr(a, size) != getattr(b, size):
             return f"{size} is {getattr(b, size)}, not {getattr(a, size)}"
     if a.names != b.names:
         return "names of elements differ"

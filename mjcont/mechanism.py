@@ -73,6 +73,7 @@ class Mechanism:
         self.keyframes = loading.keyframes(model)
         self.constrained = loading.is_constrained(model)
         self._held: tuple[str, ...] = ()
+        self._beside = ""  # why the model does not compile at a point of the last stencil
         self._own(self._geometry.with_layout(model, self.parameters))
 
     def _own(self, model: mujoco.MjModel, evaluations: int = 0) -> None:
@@ -159,10 +160,8 @@ class Mechanism:
         ------
         NameLookupError
             If a name is unknown; close matches and all valid names are listed.
-        BoundsError
-            If a control lies outside its range in the model, where MuJoCo would clamp it.
-        ParameterError
-            If the model does not compile there.
+        BoundsError, ParameterError
+            If MuJoCo would clamp a control there, or the model does not compile.
         """
         given = given or {}
         for name, value in given.items():
@@ -199,7 +198,7 @@ class Mechanism:
     ) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
         refuse_overlap(self.parameters, values, tuple(wrt))
-        rule = stencil(accurate)
+        rule, self._beside = stencil(accurate), ""
         steps = jacobian_steps(self.state_scale, rule)
         self._writer.write(self.parameters, values)
         moved = np.concatenate([x[None], self._moved(x, steps)])
@@ -227,7 +226,10 @@ class Mechanism:
         if self.parameters[name].affine:
             self._writer.write(self.parameters, {**values, name: values[name] + h})
             return (self._evaluator.forces(x[None])[0] - f) / h
-        rows = [self.residual(x, {**values, name: values[name] + offset * h}) for offset in rule.offsets]
+        rows = []
+        for offset in rule.offsets:
+            rows.append(self.residual(x, {**values, name: values[name] + offset * h}))
+            self._beside = self._beside or self._writer.failure
         return np.asarray(rule.weights) @ np.array(rows) / h
 
     def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
@@ -312,7 +314,7 @@ class Mechanism:
     @property
     def failure(self) -> str:
         """Why the model does not compile at the values evaluated last; empty where it does."""
-        return self._writer.failure
+        return self._writer.failure or self._beside
 
     @property
     def evaluations(self) -> int:
@@ -369,10 +371,8 @@ class Mechanism:
 
         Raises
         ------
-        NameLookupError
-            If there is no such keyframe.
-        ParameterError
-            If `state` has the wrong shape.
+        NameLookupError, ParameterError
+            If there is no such keyframe, or `state` has the wrong shape.
         """
         if state is not None:
             return loading.checked_state(self._model, state)

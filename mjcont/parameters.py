@@ -106,7 +106,7 @@ def agreed_value(name: str, values: np.ndarray) -> float:
         raise ParameterError(
             f"parameter '{name}': its targets disagree in this model "
             f"(values from {values.min():g} to {values.max():g}); give each its own parameter, "
-            "or factors and offsets that make them agree"
+            "an index such as [0] where they are one vector, or factors and offsets that make them agree"
         )
     return float(values[0]) + 0.0
 

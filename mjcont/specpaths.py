@@ -112,7 +112,7 @@ def resolve_spec_path(spec: mujoco.MjSpec, path: str) -> SpecTarget:
         raise unknown_name("object in a spec path", kind, _OBJECTS)
     if attr is None:
         raise ParameterError(f"target '{path}': an attribute is missing, as in {PREFIX}{kind}:{parts.pattern}.pos[0]")
-    elements = [e for e in getattr(spec, _OBJECTS[kind]) if e.name]
+    elements = [e for e in getattr(spec, _OBJECTS[kind]) if e.name and e.name != "world"]
     matched = [e for e in elements if fnmatch.fnmatchcase(e.name, parts.pattern)]
     if not matched:
         listing = ", ".join(e.name for e in elements) or "none"
@@ -136,7 +136,8 @@ def _check_attribute(element: Any, target: SpecTarget, path: str) -> None:
     if index is not None and index >= size:
         raise ParameterError(f"target '{path}': index {index} is outside 0..{size - 1}")
     if not _is_given(element, kind, attr):
-        instead = _INSTEAD.get((kind, attr)) or _other_orientation(element) or "an attribute that it does give"
+        placed = hasattr(element, "fromto") and not np.isnan(element.fromto[0])
+        instead = _INSTEAD.get((kind, attr)) or _other_orientation(element) or ("fromto" if placed else "quat")
         raise ParameterError(f"target '{path}': the XML of {kind} '{element.name}' gives no {attr}; use {instead}")
     if kind == "geom" and attr in ("pos", "quat") and not np.isnan(element.fromto[0]):
         raise ParameterError(f"target '{path}': geom '{element.name}' is placed by fromto; use fromto[0] .. fromto[5]")
@@ -153,7 +154,7 @@ def _attributes(element: Any) -> list[str]:
 
 
 def _is_continuous(value: object) -> bool:
-    return isinstance(value, float) or (isinstance(value, np.ndarray) and value.dtype.kind == "f")
+    return isinstance(value, float) or (isinstance(value, np.ndarray) and value.dtype == np.float64)
 
 
 def _is_given(element: Any, kind: str, attr: str) -> bool:
