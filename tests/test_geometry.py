@@ -231,15 +231,13 @@ def test_a_branch_in_a_length_of_the_overcentre_agrees_with_the_field_of_its_sit
     through_spec.declare("B", "spec:site:B_1.pos[0]", unit="m", bounds=(0.3, 0.7))
     paths = (f"site:B_1.pos[0]*{cosine!r}", f"site:B_1.pos[2]*{sine!r}")
     through_field.declare("B", *paths, unit="m", bounds=(0.3, 0.7))
-    curves = []
+    points = []
     for mechanism in (through_spec, through_field):
         branch = mc.continue_equilibria(mechanism, "F", bounds=(-50, 50), start={"F": 50.0, "B": 0.55})
-        curves.append((branch, mc.continue_special(branch.point("LP1"), "B", bounds=(0.45, 0.6))))
-    (found, found_locus), (expected, expected_locus) = curves
-    pairs = [*zip(found.special_points, expected.special_points, strict=True)]
-    pairs += zip(found.at(F=10.0), expected.at(F=10.0), strict=True)
-    pairs += zip(found_locus.at(B=0.48), expected_locus.at(B=0.48), strict=True)
-    pairs += zip(found_locus.at(B=0.57), expected_locus.at(B=0.57), strict=True)
+        locus = mc.continue_special(branch.point("LP1"), "B", bounds=(0.45, 0.6))
+        lengths = mc.continue_equilibria(mechanism, "B", bounds=(0.3, 0.7), start={"F": 10.0})
+        points.append([*branch.special_points, locus.row(0), *lengths.at(B=0.35), *lengths.at(B=0.62)])
+    pairs = list(zip(*points, strict=True))
     assert len(pairs) >= 5
     for one, other in pairs:
         assert one.state == pytest.approx(other.state, abs=1e-9)
