@@ -253,8 +253,8 @@ def copy_geometry(base: mujoco.MjModel, model: mujoco.MjModel) -> None:
     """Copy what a spec parameter may change into a model of the same layout, in place."""
     if model.body_simple.any() or model.nC != base.nC:
         raise ParameterError(
-            "this mechanism was taken from a result before a parameter of its spec was declared: "
-            "declare the parameter first, then compute the branch"
+            "this copy of the model was made before a parameter of its spec was declared: make it anew, "
+            "with simulation_model()"
         )
     for field in _fields():
         np.copyto(getattr(model, field), getattr(base, field))

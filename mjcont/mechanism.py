@@ -14,6 +14,7 @@ import copy
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+from weakref import WeakSet
 
 import mujoco
 import numpy as np
@@ -31,6 +32,8 @@ from mjcont.paths import bush_names
 from mjcont.quantities import Observable, Parameter, difference_rule
 from mjcont.rows import one_sided
 from mjcont.writer import FieldWriter
+
+_OWNED = ("_loaded", "_observed", "_model", "_writer", "_sensor_writer", "_sensor_data", "_evaluator")
 
 
 class Mechanism:
@@ -73,16 +76,18 @@ class Mechanism:
         self.keyframes = loading.keyframes(model)
         self.constrained = loading.is_constrained(model)
         self._held: tuple[str, ...] = ()
+        self._kin: WeakSet[Mechanism] = WeakSet((self,))  # this and its copies with held modes: one set of models
         self._beside = ""  # why the model does not compile at a point of the last stencil
         self._own(self._geometry.with_layout(model, self.parameters))
 
     def _own(self, model: mujoco.MjModel, evaluations: int = 0) -> None:
         """Take a model: one copy for residuals, one for observables, one as loaded."""
-        self._loaded, self._observed = loading.copy_model(model), model
-        self._model = loading.evaluation_copy(model)
+        self._loaded, self._observed, self._model = loading.copy_model(model), model, loading.evaluation_copy(model)
         self._writer, self._sensor_writer = self.writer(self._model), self.writer(self._observed)
         self._sensor_data = mujoco.MjData(self._observed)
         self._evaluator = Evaluator(self._model, self._writer, self.constrained, evaluations)
+        for other in self._kin:
+            other.__dict__.update({name: self.__dict__[name] for name in _OWNED})
 
     # -- making one ----------------------------------------------------------------------------------------
 
@@ -102,8 +107,7 @@ class Mechanism:
     @classmethod
     def from_spec(cls, spec: mujoco.MjSpec) -> Mechanism:
         """Take an `MjSpec` (copied)."""
-        model = loading.compile_spec(spec)
-        return cls(model, exact_text(spec), Geometry(spec.copy()))
+        return cls(loading.compile_spec(spec), exact_text(spec), Geometry(spec.copy()))
 
     @classmethod
     def from_model(cls, model: mujoco.MjModel) -> Mechanism:
@@ -270,18 +274,15 @@ class Mechanism:
         """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""
         held = copy.copy(self)
         held._held = tuple(modes)
+        self._kin.add(held)
         return held
 
     def admissible(self, x: Array, step: Array) -> Array:
         """Return a tangent step without its part along held rigid-body modes, which nothing else would correct."""
-        if not self._held:
-            return step
-        return rigid.without_modes(step, self._evaluator.mass(x), self._held_directions(x))
+        return rigid.without_modes(step, self._evaluator.mass(x), self._held_directions(x)) if self._held else step
 
     def _held_directions(self, x: Array) -> Array:
-        directions = self.rigid_directions(x)
-        found = [directions[m] for m in self._held if m in directions]
-        return np.column_stack(found) if found else np.zeros((self.n, 0))
+        return rigid.columns(self.rigid_directions(x), self._held, self.n)
 
     # -- the manifold ----------------------------------------------------------------------------------------
 

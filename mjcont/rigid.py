@@ -7,6 +7,7 @@ stability; the residual is untouched, since it has no component along them.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import mujoco
@@ -87,6 +88,12 @@ def holding(mass: np.ndarray, z: np.ndarray) -> np.ndarray:
 def without_modes(step: np.ndarray, mass: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Return a tangent step (nv,) without its part along modes Z, orthogonal in the mass."""
     return step - z @ np.linalg.solve(z.T @ mass @ z, z.T @ (mass @ step))
+
+
+def columns(directions: Mapping[str, np.ndarray], modes: Sequence[str], n: int) -> np.ndarray:
+    """Return the tangent vectors of the modes that the joints allow, (n, number of them)."""
+    found = [directions[m] for m in modes if m in directions]
+    return np.column_stack(found) if found else np.zeros((n, 0))
 
 
 def full_turns(problem: Any, x: np.ndarray, values: Values) -> np.ndarray:

@@ -180,6 +180,32 @@ def test_a_free_body_may_lose_its_symmetry():
     assert abs(found[2, 1]) > 0.01
 
 
+def test_a_model_that_rests_on_a_stop_is_recompiled_as_well():
+    through_spec, through_field = mc.Mechanism.from_xml("toggle_clamp"), mc.Mechanism.from_xml("toggle_clamp")
+    through_spec.declare("C", "spec:site:C.pos[0]", unit="m")
+    through_field.declare("C", "site:C.pos[0]", unit="m")
+    for theta in (0.0524, 0.0):
+        values = through_spec.values({"C": 0.301, "M": 3.0})
+        expected = through_field.residual(np.array([theta]), values)
+        assert through_spec.residual(np.array([theta]), values) == pytest.approx(expected, rel=1e-10)
+
+
+def test_a_floating_body_computed_before_keeps_its_branch_when_a_geometry_is_declared():
+    text = """<mujoco><option gravity="0 0 0"/><worldbody><body name="hull"><freejoint/><geom name="hull" size="0.1"/>
+      <body name="arm"><joint name="j" axis="0 1 0" stiffness="1"/>
+      <geom name="arm" type="capsule" size="0.02" fromto="0 0 0 0.3 0 0"/></body></body></worldbody>
+      <actuator><motor name="T" joint="j"/></actuator></mujoco>"""
+    mechanism = mc.Mechanism.from_xml(text)
+    branch = mc.continue_equilibria(mechanism, "T", bounds=(-0.5, 0.5))
+    mechanism.declare("length", "spec:geom:arm.fromto[3]", unit="m", bounds=(0.2, 0.5))
+    assert branch.problem.held
+    start = branch.at(T=0.2)[0]
+    assert start["j"] == pytest.approx(0.2, rel=1e-9)
+    lengths = mc.continue_equilibria(branch.problem, "length", start=start)
+    assert lengths["j"] == pytest.approx(0.2, rel=1e-9)  # no gravity: the arm's length moves nothing
+    assert lengths["length"].max() == pytest.approx(0.5)
+
+
 # -- curves --------------------------------------------------------------------------------------------------
 
 
@@ -255,6 +281,26 @@ def test_a_branch_that_meets_the_edge_of_what_compiles_ends_there_with_a_sentenc
     assert "the model does not compile at radius = " in sentence
     assert 0.0 < branch["radius"].min() < 1e-3
     assert branch["radius"].max() == pytest.approx(0.025)
+
+
+def test_a_branch_with_a_joint_limit_ends_at_the_edge_of_what_compiles():
+    text = ROD.format(declarations="", rest=3).replace('name="hip"', 'name="hip" limited="true" range="-90 90"')
+    mechanism = mc.Mechanism.from_xml(text)
+    mechanism.declare("radius", "spec:geom:rod.size[0]", unit="m")
+    branch = mc.continue_equilibria(mechanism, "radius", bounds=(-0.01, 0.02))
+    assert mechanism.constrained
+    assert "the model does not compile at radius = " in branch.ends[0][1]
+    assert branch.special_points == ()
+
+
+def test_a_start_at_the_very_edge_is_an_error_that_says_why():
+    def widen(spec, value):
+        spec.geom("rod").size[0] = RADIUS * (1.0 + math.sqrt(value))
+
+    mechanism = rod("")
+    mechanism.declare("width", function=widen, value=0.0, bounds=(0.0, 1.0))
+    with pytest.raises(mc.StartError, match="the function of 'width' has no value at width = -"):
+        mc.continue_equilibria(mechanism, "width")
 
 
 def test_a_branch_that_meets_the_edge_of_a_function_ends_there_with_a_sentence():
