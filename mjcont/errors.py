@@ -45,6 +45,14 @@ class ModelWarning(UserWarning):
     """A feature of a model that is left out, with the reason."""
 
 
+def leaves_domain(error: Exception) -> bool:
+    """Whether a user's function has no value there, by overflow, division by zero or a root of a negative number."""
+    words = ("math domain", "nonnegative", "positive input")
+    return isinstance(error, ArithmeticError) or (
+        isinstance(error, ValueError) and any(word in str(error) for word in words)
+    )
+
+
 def unknown_name(kind: str, name: str, valid: Iterable[str]) -> NameLookupError:
     """Return the error for `name`, which is not among `valid`: close matches first, then the whole list."""
     choices = sorted(valid)

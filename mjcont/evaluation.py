@@ -25,9 +25,9 @@ class Evaluator:
     count : evaluations so far; every row of a batch is one.
     """
 
-    def __init__(self, model: mujoco.MjModel, writer: FieldWriter, constrained: bool) -> None:
+    def __init__(self, model: mujoco.MjModel, writer: FieldWriter, constrained: bool, count: int = 0) -> None:
         self.model, self.writer = model, writer
-        self.count = 0
+        self.count = count
         self._kinks = Kinks.of(model)
         self._constrained = ConstrainedRows(model, self._kinks) if constrained else None
         self._last: Rows | ConstrainedRows | None = self._constrained
@@ -45,6 +45,8 @@ class Evaluator:
     def forces(self, qpos: Array, qvel: Array | None = None) -> Array:
         """Return the generalised forces at zero acceleration for every row, (m, nv)."""
         self.count += len(qpos)
+        if self.writer.failure:  # no model there: a curve ends, as one does where a function leaves its domain
+            return np.full((len(qpos), self.model.nv), np.nan)
         if self._constrained is not None:
             return self._constrained.forward(qpos, qvel, self.writer)
         rows = self._last = self._rows(len(qpos))
@@ -63,6 +65,8 @@ class Evaluator:
     def accelerations(self, qpos: Array, qvel: Array) -> Array:
         """Return qacc for every row, (m, nv)."""
         self.count += len(qpos)
+        if self.writer.failure:
+            return np.full((len(qpos), self.model.nv), np.nan)
         if self._constrained is not None:
             return self._constrained.accelerations(qpos, qvel, self.writer)
         rows = self._rows(len(qpos))
@@ -71,6 +75,8 @@ class Evaluator:
 
     def active(self, x: Array) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest, and of what `kinks` finds busy."""
+        if self.writer.failure:
+            return frozenset()
         if self._constrained is not None:
             self.count += 1
             return self._constrained.active(x, self.writer)
@@ -89,6 +95,8 @@ class Evaluator:
     def mass(self, x: Array) -> Array:
         """Return the mass matrix, (nv, nv); a soft constraint adds to it, since its force depends on acceleration."""
         n = self.model.nv
+        if self.writer.failure:
+            return np.full((n, n), np.nan)
         if self._constrained is not None:
             many = np.broadcast_to(x, (2 * n, len(x)))
             for h in _ACCELERATION_STEPS:

@@ -16,7 +16,7 @@ from mjcont.continuation import start_from
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.mechanism import Mechanism
 from mjcont.numerics.problem import Array
-from mjcont.writer import FieldWriter, Gravity
+from mjcont.writer import FieldWriter
 
 Input = float | Callable[[float], float] | tuple[Any, Any]
 
@@ -177,7 +177,7 @@ class _Run:
     every: int
 
     def _writer(self) -> FieldWriter:
-        writer = FieldWriter(self.model, self.mechanism.parameters, Gravity.of(self.model))
+        writer = self.mechanism.writer(self.model)
         writer.write(self.mechanism.parameters, self.values)
         return writer
 
@@ -220,6 +220,8 @@ class _Run:
         for k in range(self.count):
             t = (k + 0.5) * self.model.opt.timestep
             writer.write(self.mechanism.parameters, {**self.values, **{n: f(t) for n, f in self.functions.items()}})
+            if writer.failure:
+                raise ParameterError(f"at t = {t:g} s {writer.failure}")
             writer.inputs.drive(data)
             mujoco.mj_step(self.model, data)
             if (k + 1) % self.every == 0:

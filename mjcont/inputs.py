@@ -103,6 +103,13 @@ class DataInputs:
         """Whether a control reaches its actuator late."""
         return bool(self._delayed)
 
+    def reset(self, base: mujoco.MjModel) -> None:
+        """Go back to the inputs of a model as loaded."""
+        self.loaded = loaded_inputs(base)
+        for name, array in self.loaded.items():
+            self._fields[name][:] = array
+        self.settle()
+
     def write(self, field: str, index: list[int], entry: float | np.ndarray) -> None:
         """Set entries of a flattened field."""
         self._fields[field].reshape(-1)[index] = entry

@@ -17,8 +17,10 @@ from mjcont import assets
 from mjcont.equalities import describe_equalities
 from mjcont.errors import ModelError, ParameterError, unknown_name
 from mjcont.features import touching
+from mjcont.geometry import Geometry
 from mjcont.mjcf import exact_text
 from mjcont.observables import without_sensor_filters
+from mjcont.tables import number, table, unit_shown
 from mjcont.topology import describe_topology
 
 if TYPE_CHECKING:
@@ -79,8 +81,8 @@ def compile_spec(spec: mujoco.MjSpec) -> mujoco.MjModel:
         raise ModelError(f"model '{spec.modelname}': MuJoCo cannot compile it: {_one_line(error)}") from error
 
 
-def load(source: str | Path) -> tuple[mujoco.MjModel, str, tuple[str, ...]]:
-    """Return the compiled model of a source, XML that stands alone, and notes on what the user should know.
+def load(source: str | Path) -> tuple[mujoco.MjModel, str, tuple[str, ...], Geometry]:
+    """Return the compiled model of a source, XML that stands alone, notes for the user, and the spec behind it.
 
     The XML is the text as written, or flattened where it needs other files; what needs a missing file is left out.
     """
@@ -96,8 +98,9 @@ def load(source: str | Path) -> tuple[mujoco.MjModel, str, tuple[str, ...]]:
         if rewritten:
             assets.write_notes(spec, notes)
             text = exact_text(spec)
-            model = compile_spec(parse(text, None, "with everything it includes"))
-    return model, text, notes
+            spec, place = parse(text, None, "with everything it includes"), Path()
+            model = compile_spec(spec)
+    return model, text, notes, Geometry(spec, place if folder is not None and not rewritten else None)
 
 
 def _one_line(error: Warning | Exception | str) -> str:
@@ -201,6 +204,14 @@ def keyframes(model: mujoco.MjModel) -> dict[str, np.ndarray]:
     return {name: model.key_qpos[k].copy() for k, name in enumerate(names)}
 
 
+def checked_state(model: mujoco.MjModel, state: Any) -> np.ndarray:
+    """Return a state that a user gives as an array, (nq,)."""
+    x = np.array(state, dtype=float)
+    if x.shape != (model.nq,):
+        raise ParameterError(f"state must have shape ({model.nq},) for model '{model_name(model)}', got {x.shape}")
+    return x
+
+
 def state_labels(model: mujoco.MjModel) -> list[tuple[str, str]]:
     """Return name and unit of each entry of qpos."""
     parts = {
@@ -216,36 +227,18 @@ def state_labels(model: mujoco.MjModel) -> list[tuple[str, str]]:
     return labels
 
 
-def _table(rows: list[list[str]]) -> list[str]:
-    widths = [max(len(r[k]) for r in rows) for k in range(len(rows[0]))]
-    return ["  " + "  ".join(c.ljust(w) for c, w in zip(r, widths, strict=True)).rstrip() for r in rows]
-
-
-def _number(value: float, unit: str) -> str:
-    if not math.isfinite(value):
-        return "-" if value < 0 else "+"
-    return f"{math.degrees(value):.6g} deg" if unit == "rad" else f"{value:.6g}"
-
-
 def describe(mechanism: Mechanism) -> str:
     """Return what `mjcont inspect` prints."""
     m: Any = mechanism
-    kinds = {"control": "control", "gravity": "gravity"}
     lines = [f"{m.name}: {m.n} degrees of freedom, {len(m.bushes)} bush elements"]
     if m.constrained:
         lines[0] += ", with constraints (equalities, limits or contacts)"
-    rows = [["name", "value", "unit", "from", "to", "acts on"]]
-    for p in m.parameters.values():
-        acts = kinds.get(p.kind) or " ".join(t.path for t in p.targets)
-        unit = "deg" if p.unit == "rad" else p.unit
-        cells = [_number(v, p.unit).removesuffix(" deg") for v in (p.value, *p.bounds)]
-        rows.append([p.name, cells[0], unit, cells[1], cells[2], acts])
-    lines += ["", "parameters", *_table(rows)]
+    lines += ["", "parameters", str(m.parameters)]
     values = m.measure(m.qpos0[None], m.values())[0]
     rows = [["name", "at qpos0", "unit"]]
     for o, v in zip(m.observables.values(), values, strict=True):
-        rows.append([o.name, _number(v, o.unit).removesuffix(" deg"), "deg" if o.unit == "rad" else o.unit])
-    lines += ["", "observables", *_table(rows)]
+        rows.append([o.name, number(v, o.unit), unit_shown(o.unit)])
+    lines += ["", "observables", *table(rows)]
     lines += ["", "structure", *describe_topology(m.simulation_model())]
     if springs := describe_equalities(m.simulation_model()):
         lines += ["", "constraints as springs", *springs]

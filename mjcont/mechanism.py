@@ -14,6 +14,7 @@ import copy
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+from weakref import WeakSet
 
 import mujoco
 import numpy as np
@@ -21,15 +22,18 @@ import numpy as np
 from mjcont import features, loading, rigid
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.evaluation import Evaluator
+from mjcont.geometry import Geometry, refuse_overlap
 from mjcont.mjcf import exact_text
 from mjcont.numerics.differences import FORWARD, Stencil, jacobian_from_rows, jacobian_steps, stencil
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
 from mjcont.observables import model_observables
-from mjcont.parameters import Declaration, collect_parameters, make_parameter
+from mjcont.parameters import Declaration, collect_parameters, declared_parameter
 from mjcont.paths import bush_names
 from mjcont.quantities import Observable, Parameter
 from mjcont.sides import difference_rule, one_sided, parameter_rate
-from mjcont.writer import FieldWriter, Gravity
+from mjcont.writer import FieldWriter
+
+_OWNED = ("_loaded", "_observed", "_model", "_writer", "_sensor_writer", "_sensor_data", "_evaluator", "nonsmooth")
 
 
 class Mechanism:
@@ -62,7 +66,12 @@ class Mechanism:
     second_order = True
 
     def __init__(
-        self, model: mujoco.MjModel, mjcf: str | None = None, friction: str = "frictionless", notes: Sequence[str] = ()
+        self,
+        model: mujoco.MjModel,
+        mjcf: str | None = None,
+        friction: str = "frictionless",
+        notes: Sequence[str] = (),
+        geometry: Geometry | None = None,
     ) -> None:
         features.refuse_unsupported(model)
         self.notes = (*notes, *features.friction_notes(model, friction), *features.activation_notes(model))
@@ -71,23 +80,28 @@ class Mechanism:
         self.name = loading.model_name(model)
         self.nq, self.n = model.nq, model.nv
         self.qpos0 = model.qpos0.copy()
-        self._loaded = loading.copy_model(model)
-        self._observed = model
-        self._model = loading.evaluation_copy(model)
         self._flat = loading.coordinates_are_flat(model)
         self.state_scale = loading.state_scale(model)
-        self.parameters = collect_parameters(self._model)
+        self._geometry = geometry or Geometry(None)
+        self.parameters = collect_parameters(loading.evaluation_copy(loading.copy_model(model)), self._geometry)
         self.observables = model_observables(model)
         self.declared: dict[str, Any] = {}
         self.keyframes = loading.keyframes(model)
-        gravity = Gravity.of(model)
-        self._writer = FieldWriter(self._model, self.parameters, gravity)
-        self._sensor_writer = FieldWriter(self._observed, self.parameters, gravity)
-        self._sensor_data = mujoco.MjData(self._observed)
         self.constrained = loading.is_constrained(model)
-        self._evaluator = Evaluator(self._model, self._writer, self.constrained)
-        self.nonsmooth = self._evaluator.nonsmooth
         self._held: tuple[str, ...] = ()
+        self._kin: WeakSet[Mechanism] = WeakSet((self,))  # this and its copies with held modes: one set of models
+        self._beside = ""  # why the model does not compile at a point of the last stencil
+        self._own(self._geometry.with_layout(model, self.parameters))
+
+    def _own(self, model: mujoco.MjModel, evaluations: int = 0) -> None:
+        """Take a model: one copy for residuals, one for observables, one as loaded."""
+        self._loaded, self._observed, self._model = loading.copy_model(model), model, loading.evaluation_copy(model)
+        self._writer, self._sensor_writer = self.writer(self._model), self.writer(self._observed)
+        self._sensor_data = mujoco.MjData(self._observed)
+        self._evaluator = Evaluator(self._model, self._writer, self.constrained, evaluations)
+        self.nonsmooth = self._evaluator.nonsmooth
+        for other in self._kin:
+            other.__dict__.update({name: self.__dict__[name] for name in _OWNED})
 
     # -- making one ----------------------------------------------------------------------------------------
 
@@ -103,14 +117,13 @@ class Mechanism:
         ModelError
             If the file does not exist, MuJoCo rejects it, or the model has a feature that cannot be treated.
         """
-        model, text, notes = loading.load(source)
-        return cls(model, text, friction, notes)
+        model, text, notes, geometry = loading.load(source)
+        return cls(model, text, friction, notes, geometry)
 
     @classmethod
     def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
-        """Take an `MjSpec`; the spec itself is not kept."""
-        model = loading.compile_spec(spec)
-        return cls(model, exact_text(spec), friction)
+        """Take an `MjSpec` (copied)."""
+        return cls(loading.compile_spec(spec), exact_text(spec), friction, geometry=Geometry(spec.copy()))
 
     @classmethod
     def from_model(cls, model: mujoco.MjModel, *, friction: str = "frictionless") -> Mechanism:
@@ -119,8 +132,23 @@ class Mechanism:
 
     # -- parameters ----------------------------------------------------------------------------------------
 
-    def declare(self, name: str, *paths: str, unit: str = "", bounds: tuple[float, float] | None = None) -> Parameter:
-        """Declare a named parameter that acts on the fields given by `paths` and return it.
+    def declare(
+        self,
+        name: str,
+        *paths: str,
+        unit: str = "",
+        bounds: tuple[float, float] | None = None,
+        function: Callable[[Any, float], None] | None = None,
+        value: float | None = None,
+    ) -> Parameter:
+        """Declare a named parameter and return it.
+
+        Parameters
+        ----------
+        paths : str
+            Fields such as `joint:hip.stiffness`, or `spec:geom:rod.size[0]`, with which the model is compiled anew.
+        function : callable, optional
+            Instead of paths: `function(spec, value)` edits a copy of the `MjSpec`; `value` is the parameter's own.
 
         Raises
         ------
@@ -129,9 +157,12 @@ class Mechanism:
         """
         if name in self.parameters:
             raise ParameterError(f"parameter '{name}' is declared twice")
-        parameter = make_parameter(self._model_as_loaded(), Declaration(name, unit, bounds, tuple(paths)))
+        given = Declaration(name, unit, bounds, tuple(paths), function, value)
+        parameter = declared_parameter(self._model_as_loaded(), self._geometry, given)
         self.parameters[name] = parameter
-        self.declared[name] = {"paths": list(paths), "unit": parameter.unit, "bounds": list(parameter.bounds)}
+        self.declared[name] = given.record(parameter)
+        if parameter.kind == "spec" and self._loaded.body_simple.any():
+            self._own(self._geometry.with_layout(self._loaded, self.parameters), self.evaluations)
         return parameter
 
     def parameter(self, name: str) -> Parameter:
@@ -149,14 +180,16 @@ class Mechanism:
         ------
         NameLookupError
             If a name is unknown; close matches and all valid names are listed.
-        BoundsError
-            If a control lies outside its range in the model, where MuJoCo would clamp it.
+        BoundsError, ParameterError
+            If MuJoCo would clamp a control there, or the model does not compile.
         """
         given = given or {}
         for name, value in given.items():
             self.parameter(name).check(value)
         merged = {name: p.value for name, p in self.parameters.items()}
         merged.update({name: float(v) for name, v in given.items()})
+        if any(self.parameters[name].kind == "spec" for name in given):
+            self._geometry.model(self.parameters, merged)
         return merged
 
     def _model_as_loaded(self) -> mujoco.MjModel:
@@ -184,14 +217,15 @@ class Mechanism:
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
     ) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
-        rule = stencil(accurate)
+        refuse_overlap(self.parameters, values, tuple(wrt))
+        rule, self._beside = stencil(accurate), ""
         steps = jacobian_steps(self.state_scale, rule)
         self._writer.write(self.parameters, values)
         moved = np.concatenate([x[None], self._moved(x, steps)])
         rows = self._evaluator.forces(moved)
         f, sides = rows[0].copy(), self._evaluator.sides
         jac = jacobian_from_rows(rows[1:], self.state_scale, rule)
-        if sides:
+        if sides and not self.failure:
             jac = one_sided(jac, rows, sides, steps, lambda finer: self._pieces(x, finer))
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
@@ -213,6 +247,7 @@ class Mechanism:
 
         def at(offset: float) -> tuple[Array, bytes]:
             self._writer.write(self.parameters, {**values, name: values[name] + offset})
+            self._beside = self._beside or self._writer.failure
             return self._evaluator.forces(x[None])[0], b"".join(self._evaluator.sides)
 
         rule, h = self.parameter_stencil(name, values[name], span)
@@ -235,17 +270,7 @@ class Mechanism:
 
     def periods(self, x: Array, values: Values) -> Array:
         """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
-        found = np.full(self.n, np.inf)
-        self._writer.write(self.parameters, values)
-        hinges = [j for j, (_, unit) in enumerate(self.state_labels) if unit == "rad" and self._flat]
-        beside = self.retract(x, 0.1 * self.state_scale * np.cos(1.0 + np.arange(self.n)))
-        turned = beside + 2.0 * np.pi * np.eye(self.nq)[hinges]
-        rows = self._evaluator.forces(np.concatenate([beside[None], turned])).copy()
-        change = np.abs(rows[1:] - rows[0]).max(axis=1, initial=0.0)
-        for j, c in zip(hinges, change, strict=True):
-            if c <= 1e-9 * np.abs(rows[0]).max():
-                found[j] = 2.0 * np.pi
-        return found
+        return rigid.full_turns(self, x, values)
 
     # -- rigid-body zero modes -------------------------------------------------------------------------------
 
@@ -266,13 +291,12 @@ class Mechanism:
         """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""
         held = copy.copy(self)
         held._held = tuple(modes)
+        self._kin.add(held)
         return held
 
     def admissible(self, x: Array, step: Array) -> Array:
         """Return a tangent step without its part along held rigid-body modes, which nothing else would correct."""
-        if not self._held:
-            return step
-        return rigid.without_modes(step, self._evaluator.mass(x), self._held_directions(x))
+        return rigid.without_modes(step, self._evaluator.mass(x), self._held_directions(x)) if self._held else step
 
     def _held_directions(self, x: Array) -> Array:
         found = list(self.rigid_directions(x).values())
@@ -310,6 +334,11 @@ class Mechanism:
         return self._evaluator.active(x)
 
     @property
+    def failure(self) -> str:
+        """Why the model does not compile at the values evaluated last; empty where it does."""
+        return self._writer.failure or self._beside
+
+    @property
     def evaluations(self) -> int:
         """Forward evaluations so far; every row of a batch counts as one."""
         return self._evaluator.count
@@ -335,10 +364,12 @@ class Mechanism:
     ) -> Array:
         """Return observables for states (m, nq), at rest unless velocities (m, nv) are given; default all of them."""
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
-        out = np.empty((len(states), len(chosen)))
+        out = np.full((len(states), len(chosen)), np.nan)
         data = self._sensor_data
         for i, x in enumerate(states):
             self._sensor_writer.write(self.parameters, values if isinstance(values, Mapping) else values[i])
+            if self._sensor_writer.failure:
+                continue
             data.qpos[:] = x
             data.qvel[:] = 0.0 if velocities is None else velocities[i]
             self._sensor_writer.inputs.put(data)
@@ -354,15 +385,17 @@ class Mechanism:
         model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET) | int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
         return model
 
+    def writer(self, model: mujoco.MjModel) -> FieldWriter:
+        """Return what writes parameter values into a copy of the model."""
+        return FieldWriter(model, self.parameters, self._geometry)
+
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return a start: the state given, or a keyframe's, or qpos0.
 
         Raises
         ------
-        NameLookupError
-            If there is no such keyframe.
-        ParameterError
-            If `state` has the wrong shape.
+        NameLookupError, ParameterError
+            If there is no such keyframe, or `state` has the wrong shape.
         """
         return loading.start_state(self, keyframe, state)
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
@@ -13,6 +14,10 @@ from mjcont.errors import NameLookupError, ParameterError
 from mjcont.inputs import INPUT_FIELDS, actuator_of, limits, parameter_kind, setpoint_unit
 from mjcont.paths import controls, read_target, resolve_path
 from mjcont.quantities import Parameter, Target, default_bounds
+from mjcont.tables import ParameterTable
+
+if TYPE_CHECKING:
+    from mjcont.geometry import Geometry
 
 GRAVITY_ANGLE, LOAD_FACTOR = "gravity_angle", "load_factor"
 DECLARATION_PREFIX = "mjcont/"
@@ -21,12 +26,24 @@ _SETTINGS = frozenset({"gravity_axis", "notes"})
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
-    """What a `mjcont/NAME` text says: unit, bounds and the paths of the targets."""
+    """What a `mjcont/NAME` text says: unit, bounds and the paths of the targets. Python may give a function.
+
+    Attributes
+    ----------
+    function, value : in place of paths, `function(spec, value)` and the parameter's value in the model.
+    """
 
     name: str
     unit: str
     bounds: tuple[float, float] | None
     paths: tuple[str, ...]
+    function: Callable[[Any, float], None] | None = None
+    value: float | None = None
+
+    def record(self, made: Parameter) -> dict[str, Any]:
+        """Return what a result file keeps of it; of a function, its name."""
+        what = {"paths": list(self.paths)} if self.function is None else {"function": made.source, "value": made.value}
+        return what | {"unit": made.unit, "bounds": list(made.bounds)}
 
 
 def parse_declaration(name: str, text: str) -> Declaration:
@@ -83,19 +100,23 @@ def setting(model: mujoco.MjModel, name: str) -> str | None:
     return bytes(model.text_data[start : start + size]).rstrip(b"\0").decode()
 
 
-def make_parameter(model: mujoco.MjModel, declaration: Declaration) -> Parameter:
-    """Resolve a declaration against a model, checking that all its targets agree on one value."""
-    targets = tuple(t for path in declaration.paths for t in resolve_path(model, path))
-    values = np.concatenate([read_target(model, t) for t in targets])
+def agreed_value(name: str, values: np.ndarray) -> float:
+    """Return the value that all targets of a parameter imply."""
     spread = np.ptp(values)
     if spread > 1e-9 * max(1.0, np.abs(values).max()):
         raise ParameterError(
-            f"parameter '{declaration.name}': its targets disagree in this model "
+            f"parameter '{name}': its targets disagree in this model "
             f"(values from {values.min():g} to {values.max():g}); give each its own parameter, "
-            "or factors and offsets that make them agree"
+            "an index such as [0] where they are one vector, or factors and offsets that make them agree"
         )
+    return float(values[0]) + 0.0
+
+
+def make_parameter(model: mujoco.MjModel, declaration: Declaration) -> Parameter:
+    """Resolve a declaration against a model, checking that all its targets agree on one value."""
+    targets = tuple(t for path in declaration.paths for t in resolve_path(model, path))
+    value = agreed_value(declaration.name, np.concatenate([read_target(model, t) for t in targets]))
     kind = parameter_kind({t.field for t in targets})
-    value = float(values[0]) + 0.0
     units = {t.unit for t in targets}
     unit = declaration.unit or (units.pop() if len(units) == 1 else "")
     *hard, words = _input_range(model, targets)
@@ -106,6 +127,21 @@ def make_parameter(model: mujoco.MjModel, declaration: Declaration) -> Parameter
         bounds = (0.0, 1.0)
     low, high = _positive(targets) if springs else hard
     return Parameter(declaration.name, unit, value, bounds, kind, targets, (low, high), words)
+
+
+def declared_parameter(model: mujoco.MjModel, geometry: Geometry, declaration: Declaration) -> Parameter:
+    """Return the parameter that paths declare, to fields or through the spec, or that a function of the spec is."""
+    if declaration.function is not None:
+        return geometry.function_parameter(declaration, declaration.function, declaration.value)
+    if declaration.value is not None:
+        raise ParameterError(
+            f"parameter '{declaration.name}': value= goes with function=; the value of a path is the model's own"
+        )
+    if not declaration.paths:
+        raise ParameterError(f"parameter '{declaration.name}': give at least one target, such as joint:hip.stiffness")
+    if any(path.startswith("spec:") for path in declaration.paths):
+        return geometry.path_parameter(declaration)
+    return make_parameter(model, declaration)
 
 
 def _positive(targets: Sequence[Target]) -> tuple[float, float]:
@@ -150,9 +186,9 @@ def gravity_parameters() -> list[Parameter]:
     ]
 
 
-def collect_parameters(model: mujoco.MjModel) -> dict[str, Parameter]:
+def collect_parameters(model: mujoco.MjModel, geometry: Geometry) -> ParameterTable:
     """Return declared parameters first, then controls, then gravity."""
-    found: dict[str, Parameter] = {}
+    found = ParameterTable()
     reserved = {p.name for p in gravity_parameters()}
     for declaration in declarations(model):
         if any(path.startswith("sensor:") for path in declaration.paths):
@@ -160,7 +196,7 @@ def collect_parameters(model: mujoco.MjModel) -> dict[str, Parameter]:
         if declaration.name in found or declaration.name in reserved:
             raise ParameterError(f"parameter '{declaration.name}' is declared twice")
         try:
-            found[declaration.name] = make_parameter(model, declaration)
+            found[declaration.name] = declared_parameter(model, geometry, declaration)
         except NameLookupError as error:
             raise ParameterError(f"parameter '{declaration.name}': {error}") from error
     for name, (field, index) in controls(model).items():

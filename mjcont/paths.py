@@ -4,7 +4,7 @@ Their grammar is object:pattern.attribute[index]*factor+offset,
 
 with `object` one of joint, body, site, geom, tendon, actuator, equality, mocap, option, control. What has no name
 in the model is called by its place: joint0, tendon1, ... `equality:NAME.stiffness` is no field but the effective
-stiffness of a constraint (see equalities.py).
+stiffness of a constraint (see equalities.py). Paths that begin with `spec:` are read by `specpaths`.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from __future__ import annotations
 import fnmatch
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import mujoco
 import numpy as np
@@ -132,6 +133,31 @@ def _commands(model: mujoco.MjModel, pattern: str, factor: float, offset: float,
     return [Target(field, tuple(index), factor, offset, path) for field, index in by_field.items()]
 
 
+@dataclass(frozen=True, slots=True)
+class PathParts:
+    """What a path says, before it is looked up in a model."""
+
+    kind: str
+    pattern: str
+    attr: str | None
+    index: int | None
+    factor: float
+    offset: float
+
+
+def split_path(path: str, shown: str | None = None) -> PathParts:
+    """Read a path; an error shows it as `shown`."""
+    shown = shown or path
+    match = _PATH.fullmatch(path)
+    if match is None:
+        raise ParameterError(f"cannot read target '{shown}': expected object:name.attribute[index]*factor+offset")
+    factor, offset = float(match["factor"] or 1.0), float(match["offset"] or 0.0)
+    if factor == 0.0:
+        raise ParameterError(f"target '{shown}': the factor must not be zero")
+    index = None if match["index"] is None else int(match["index"])
+    return PathParts(match["object"], match["pattern"], match["attr"], index, factor, offset)
+
+
 def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
     """Turn a path into targets of this model.
 
@@ -142,17 +168,12 @@ def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
     NameLookupError
         If the object kind or attribute does not exist; the message lists the valid ones.
     """
-    match = _PATH.fullmatch(path)
-    if match is None:
-        raise ParameterError(f"cannot read target '{path}': expected object:name.attribute[index]*factor+offset")
-    kind, pattern, attr = match["object"], match["pattern"], match["attr"]
-    factor, offset = float(match["factor"] or 1.0), float(match["offset"] or 0.0)
-    if factor == 0.0:
-        raise ParameterError(f"target '{path}': the factor must not be zero")
+    parts = split_path(path)
+    kind, pattern, attr, factor, offset = parts.kind, parts.pattern, parts.attr, parts.factor, parts.offset
     if kind == "control":
         return _commands(model, pattern + (f".{attr}" if attr else ""), factor, offset, path)
     if kind == "option":
-        return [Target("opt." + pattern, _option_index(model, pattern, match["index"]), factor, offset, path)]
+        return [Target("opt." + pattern, _option_index(model, pattern, parts.index), factor, offset, path)]
     if kind not in _OBJECTS:
         raise unknown_name("object in a target path", kind, [*_OBJECTS, "option", "control"])
     if attr is None:
@@ -166,12 +187,12 @@ def resolve_path(model: mujoco.MjModel, path: str) -> list[Target]:
         listing = ", ".join(names) or "none"
         raise ParameterError(f"target '{path}' matches no {kind} of the model. Its {kind} names: {listing}.")
     if (kind, attr) == ("equality", "stiffness"):
-        if match["index"] is not None:
+        if parts.index is not None:
             raise ParameterError(f"target '{path}': equality:NAME.stiffness has no index")
         return stiffness_targets(model, ids, factor, offset, path)
     field, entries = _input_entries(model, kind, attr, ids) or _field_entries(model, kind, attr, ids)
-    if match["index"] is not None:
-        index = int(match["index"])
+    index = parts.index
+    if index is not None:
         if index >= entries.shape[1]:
             raise ParameterError(f"target '{path}': index {index} is outside 0..{entries.shape[1] - 1}")
         entries = entries[:, index : index + 1]
@@ -182,16 +203,16 @@ def _is_continuous(field: object) -> bool:
     return isinstance(field, float) or (isinstance(field, np.ndarray) and field.dtype.kind == "f")
 
 
-def _option_index(model: mujoco.MjModel, attr: str, index: str | None) -> tuple[int, ...]:
+def _option_index(model: mujoco.MjModel, attr: str, index: int | None) -> tuple[int, ...]:
     if not _is_continuous(getattr(model.opt, attr, None)):
         names = [a for a in dir(model.opt) if not a.startswith("_")]
         raise unknown_name("option", attr, [a for a in names if _is_continuous(getattr(model.opt, a))])
     size = np.size(getattr(model.opt, attr))
     if index is None:
         return tuple(range(size))
-    if int(index) >= size:
+    if index >= size:
         raise ParameterError(f"target 'option:{attr}[{index}]': index {index} is outside 0..{size - 1}")
-    return (int(index),)
+    return (index,)
 
 
 def read_target(model: mujoco.MjModel, target: Target) -> np.ndarray:

@@ -67,15 +67,23 @@ class Parameter:
         Its value in the loaded model (SI, radians).
     bounds : tuple of float
         Where the parameter makes sense; the default range of a continuation.
-    kind : {"control", "input", "switch", "gravity", "field"}
+    kind : {"control", "input", "switch", "gravity", "field", "spec"}
         A control; another input that lives in MuJoCo's data (an integrated setpoint, a mocap pose); equality
-        constraints on or off; gravity; or a field of the model.
+        constraints on or off; gravity; a field of the model; or geometry, by an edit of the model's spec.
     targets : tuple of Target
-        Empty for gravity_angle and load_factor, which act together on the gravity vector.
+        Empty for gravity_angle and load_factor, which act together on the gravity vector, and for "spec".
     hard_bounds : tuple of float
         An input's range in MuJoCo, outside which it would be clamped.
     limit : str
         The words for that range.
+    edit : callable, optional
+        Of kind "spec": writes a value into a copy of the model's spec, which is then compiled.
+    source : str
+        Of kind "spec": its paths, or its function's name.
+    is_function : bool
+        Whether `edit` is a user's function, not made from paths.
+    touched : frozenset
+        Of kind "spec": the entries of the compiled model that change with it.
     """
 
     name: str
@@ -86,6 +94,26 @@ class Parameter:
     targets: tuple[Target, ...] = ()
     hard_bounds: tuple[float, float] = (-math.inf, math.inf)
     limit: str = ""
+    edit: Callable[[Any, float], None] | None = None
+    source: str = ""
+    is_function: bool = False
+    touched: frozenset[tuple[str, int]] = frozenset()
+
+    @property
+    def cost(self) -> str:
+        """What a change of value costs: "nothing", "field", "field + constants" or "recompile"."""
+        if self.kind == "spec":
+            return "recompile"
+        if self.kind in ("control", "input", "switch"):
+            return "nothing"
+        return "field + constants" if self.needs_constants else "field"
+
+    @property
+    def acts_on(self) -> str:
+        """What it acts on, in words or as paths."""
+        if self.kind in ("control", "gravity"):
+            return self.kind
+        return self.source or " ".join(t.path for t in self.targets)
 
     @property
     def limits(self) -> str:
@@ -113,6 +141,8 @@ class Parameter:
         """The entries of model fields on which it acts."""
         if self.kind == "gravity":
             return frozenset({("opt.gravity", i) for i in range(3)})
+        if self.kind == "spec":
+            return self.touched
         found = {(t.field, i) for t in self.targets for i in t.index}
         scaled = {("body_inertia", 3 * i + k) for field, i in found if field == "body_mass" for k in range(3)}
         return frozenset(found | scaled)

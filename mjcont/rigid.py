@@ -14,6 +14,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from mjcont.numerics.problem import Values
+
 _AXES = "xyz"
 NAMES = [f"translation along {a}" for a in _AXES] + [f"rotation about {a}" for a in _AXES]
 _THROUGH = re.compile(r"(rotation about [xyz]) through \((.*)\)")
@@ -146,3 +148,17 @@ def holding(mass: np.ndarray, z: np.ndarray) -> np.ndarray:
 def without_modes(step: np.ndarray, mass: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Return a tangent step (nv,) without its part along modes Z, orthogonal in the mass."""
     return step - z @ np.linalg.solve(z.T @ mass @ z, z.T @ (mass @ step))
+
+
+def full_turns(problem: Any, x: np.ndarray, values: Values) -> np.ndarray:
+    """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
+    found = np.full(problem.n, np.inf)
+    hinges = [j for j, (_, unit) in enumerate(problem.state_labels) if unit == "rad" and problem.nq == problem.n]
+    beside = problem.retract(x, 0.1 * problem.state_scale * np.cos(1.0 + np.arange(problem.n)))
+    turns = 2.0 * np.pi * np.eye(problem.n)[hinges]
+    rows = problem.residuals(beside, values, np.concatenate([np.zeros((1, problem.n)), turns]))
+    change = np.abs(rows[1:] - rows[0]).max(axis=1, initial=0.0)
+    for j, c in zip(hinges, change, strict=True):
+        if c <= 1e-9 * np.abs(rows[0]).max():
+            found[j] = 2.0 * np.pi
+    return found

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from mjcont.equalities import ConstraintStiffness, constraint_stiffness
-from mjcont.writer import FieldWriter, Gravity
 
 
 def notes_on(mechanism: Any, values: Sequence[Mapping[str, float]]) -> list[str]:
@@ -19,7 +18,7 @@ def notes_on(mechanism: Any, values: Sequence[Mapping[str, float]]) -> list[str]
         Parameters' values; where the stiffness differs between them, its range is stated.
     """
     model = mechanism.simulation_model()
-    writer = FieldWriter(model, mechanism.parameters, Gravity.of(model))
+    writer = mechanism.writer(model)
     found: dict[tuple[str, str], list[ConstraintStiffness]] = {}
     for given in values:
         writer.write(mechanism.parameters, given)

@@ -2,7 +2,8 @@
 
 Layout of an HDF5 file (format version 1)::
 
-    /                     attributes: format, format_version, kind, name, start, start_index, settings (JSON), ...
+    /                     attributes: format, format_version, kind, name, start, start_index, settings (JSON),
+                          declared (JSON: parameters by path; of a Python function only the name), ...
     /model                the MJCF text (absent for a VectorField)
     /columns/NAME         (N,) float64, attributes unit, role
     /states               (N, nq) float64, attributes names, units
@@ -158,6 +159,11 @@ def _read(f: h5py.File, problem: Any) -> Branch:
             warnings.simplefilter("ignore", ModelWarning)  # said when the result was computed
             problem = Mechanism.from_xml(f["model"].asstr()[()])
         for name, given in json.loads(f.attrs["declared"]).items():
+            if "function" in given:
+                raise ResultFileError(
+                    f"result file '{f.filename}': its parameter '{name}' is the Python function {given['function']}, "
+                    "which a file cannot carry: declare it on a Mechanism again and load with problem=mechanism"
+                )
             problem.declare(name, *given["paths"], unit=given["unit"], bounds=given["bounds"])
     columns = {}
     for name in json.loads(f["columns"].attrs["order"]):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from mjcont.errors import ParameterError, unknown_name
+from mjcont.errors import ParameterError, leaves_domain, unknown_name
 from mjcont.numerics.differences import (
     FOURTH_ORDER,
     PARAMETER,
@@ -109,10 +109,8 @@ class VectorField:
         self.evaluations += 1
         try:
             return np.array(self.function(x, values), dtype=float).reshape(self.n)
-        except ArithmeticError:  # an overflow or division by zero ends a curve there, with what came before
-            return np.full(self.n, np.nan)
-        except ValueError as error:
-            if "math domain" in str(error) or "nonnegative" in str(error) or "positive input" in str(error):
+        except (ArithmeticError, ValueError) as error:
+            if leaves_domain(error):  # ends a curve there, with what came before
                 return np.full(self.n, np.nan)
             raise
 

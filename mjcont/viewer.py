@@ -11,7 +11,6 @@ import mujoco
 from mjcont.errors import MjcontError
 from mjcont.mechanism import Mechanism
 from mjcont.numerics.problem import Array
-from mjcont.writer import FieldWriter, Gravity
 
 
 def view(mechanism: Mechanism, state: Array, values: Mapping[str, float]) -> None:
@@ -32,7 +31,7 @@ def view(mechanism: Mechanism, state: Array, values: Mapping[str, float]) -> Non
 def posed(mechanism: Mechanism, state: Array, values: Mapping[str, float]) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """Return a copy of the model that has the parameter values, and its data at rest in the state."""
     model = mechanism.simulation_model()
-    writer = FieldWriter(model, mechanism.parameters, Gravity.of(model))
+    writer = mechanism.writer(model)
     writer.write(mechanism.parameters, mechanism.values(values))
     data = mujoco.MjData(model)
     data.qpos[:] = state

@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import ParameterError, unknown_name
+from mjcont.geometry import Geometry, NotCompiled, copy_geometry
 from mjcont.inputs import INPUT_FIELDS, DataInputs
 from mjcont.parameters import GRAVITY_ANGLE, LOAD_FACTOR, setting
 from mjcont.paths import field_array
@@ -47,11 +48,19 @@ class FieldWriter:
 
     What is written depends on the values alone, not on what was written before: a parameter at the model's own value
     leaves its entries as loaded, and where several act on one entry, the last declared of the others decides.
+    Parameters of the spec come first: "as loaded" is then what the spec compiles to at their values.
+
+    Attributes
+    ----------
+    failure : why the model cannot be compiled at the values written last; empty where it can.
     """
 
-    def __init__(self, model: mujoco.MjModel, parameters: Mapping[str, Parameter], gravity: Gravity) -> None:
+    def __init__(self, model: mujoco.MjModel, parameters: Mapping[str, Parameter], geometry: Geometry) -> None:
         self.model = model
-        self.gravity = gravity
+        self.gravity = Gravity.of(model)
+        self.failure = ""
+        self._geometry = geometry
+        self._base: dict[str, float] = {}
         self.inputs = DataInputs(model)
         self.version = 0
         self._data = mujoco.MjData(model)
@@ -59,29 +68,56 @@ class FieldWriter:
             "body_mass": model.body_mass.copy(),
             "body_inertia": model.body_inertia.copy(),
         }
-        self._written = {name: p.value for name, p in parameters.items()}
+        self._written: dict[str, float] = {}
+        self._known = len(parameters)
         self._last: dict[str, float] | None = None
         self._groups: dict[str, tuple[str, ...]] = {}
         self._grouped = 0
 
     def write(self, parameters: Mapping[str, Parameter], values: Mapping[str, float]) -> None:
         """Make the model have `values`; names that are left out have the model's own."""
-        if values == self._last:
+        if values == self._last and len(parameters) == self._known:
             return
         if not values.keys() <= parameters.keys():
             raise unknown_name("parameter", next(n for n in values if n not in parameters), parameters)
         written = self._written
         new = {n: values.get(n, p.value) for n, p in parameters.items()}
+        if not self._rebase(parameters, new):
+            return
         changed = [n for n, v in new.items() if written.get(n, parameters[n].value) != v]
         if not changed:
             return
         try:
             self._rewrite(parameters, changed, new)
         except BaseException:  # an interrupt half-way: everything is written anew next time
-            written.clear()
-            self._last = None
+            self._forget()
             raise
         self._last = dict(values)
+
+    def _forget(self) -> None:
+        self._written.clear()
+        self._last, self._base = None, {}
+
+    def _rebase(self, parameters: Mapping[str, Parameter], new: Mapping[str, float]) -> bool:
+        """Give the model the geometry that the spec compiles to; return whether it does compile."""
+        wanted = {n: new[n] for n, p in parameters.items() if p.kind == "spec"}
+        self._known = len(parameters)
+        if wanted == self._base:
+            return True
+        self._forget()
+        self.failure = ""
+        self.version += 1
+        try:
+            base = self._geometry.model(parameters, wanted)
+        except NotCompiled as error:
+            self.failure = str(error)
+            return False
+        copy_geometry(base, self.model)
+        self.gravity = Gravity.of(base)
+        self._loaded = {"body_mass": base.body_mass.copy(), "body_inertia": base.body_inertia.copy()}
+        self.inputs.reset(base)
+        self._base = wanted
+        return True
 
     def _rewrite(self, parameters: Mapping[str, Parameter], changed: list[str], new: Mapping[str, float]) -> None:
         written = self._written

@@ -399,8 +399,8 @@ def test_printing_lists_freedoms_parameters_observables_and_starts(overcentre):
     text = str(overcentre)
     assert "overcentre: 6 degrees of freedom, 5 bush elements" in text
     lines = [line.split() for line in text.splitlines()]
-    assert ["k_j", "1000", "N/m", "1", "1e+12", "actuator:bush_*.biasprm[1]*-1"] in lines
-    assert ["gravity_angle", "0", "deg", "-180", "180", "gravity"] in lines
+    assert ["k_j", "1000", "N/m", "1", "1e+12", "field", "actuator:bush_*.biasprm[1]*-1"] in lines
+    assert ["gravity_angle", "0", "deg", "-180", "180", "field", "gravity"] in lines
     assert ["theta_1", "60", "deg"] in lines
     assert ["height", "0.866025", "m"] in lines
     assert ["qpos0"] in lines

@@ -15,7 +15,6 @@ from scipy import optimize
 from thirdparty import FOLDER, WHEELS, fetch, unpacked
 
 import mjcont as mc
-from mjcont.writer import FieldWriter, Gravity
 
 pytestmark = pytest.mark.thirdparty
 
@@ -56,7 +55,7 @@ def motion(point, away, speed, duration, timestep=2e-4):
     model.opt.integrator, model.opt.timestep = mujoco.mjtIntegrator.mjINT_RK4, timestep
     model.opt.iterations, model.opt.ls_iterations, model.opt.tolerance = 100, 50, 0.0
     model.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
-    writer = FieldWriter(model, problem.parameters, Gravity.of(model))
+    writer = problem.writer(model)
     writer.write(problem.parameters, point.parameters)
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:], data.ctrl[:] = problem.retract(point.state, away), speed, writer.ctrl

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from mjcont.numerics.bordered import Factored, border, null_vectors
-from mjcont.numerics.newton import Corrected, correct, with_row
+from mjcont.numerics.newton import Corrected, correct, undefined, with_row
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Local, System
@@ -79,6 +79,8 @@ def first_point(
     Returns a sentence where the corrector fails.
     """
     tangent = tangent_at(system, system.local(x, y), y)
+    if np.any(np.isnan(tangent)):
+        return undefined(system)
     lead += system.n
     row = tangent
     if abs(tangent[lead]) > 1e-3:  # keeps the parameter at the start's value exactly
@@ -92,10 +94,12 @@ def first_point(
 
 
 def tangent_at(system: System, local: Local, y: Array) -> Array:
-    """Return a unit tangent (n + k,) of the curve through a point near it."""
+    """Return a unit tangent (n + k,) of the curve through a point near it; NaN where f has no derivatives."""
     jac = system.jacobian(local, y)
     size = system.n + system.k
     if isinstance(jac, np.ndarray):
+        if not np.all(np.isfinite(jac)):
+            return np.full(size, np.nan)
         rows = 1.0 / np.maximum(np.abs(jac).max(axis=1), 1e-300)
         return null_vectors(rows[:, None] * jac, 0)[0][:, 0]
     best: Array | None = None
@@ -105,8 +109,7 @@ def tangent_at(system: System, local: Local, y: Array) -> Array:
         t = Factored(border(jac, np.zeros((size - 1, 0)), row)).solve(np.append(np.zeros(size - 1), 1.0))
         if np.all(np.isfinite(t)) and (best is None or np.linalg.norm(t) < np.linalg.norm(best)):
             best = t
-    assert best is not None
-    return best / np.linalg.norm(best)
+    return np.full(size, np.nan) if best is None else best / np.linalg.norm(best)
 
 
 def predict(point: CurvePoint, h: float) -> Array:

@@ -110,6 +110,8 @@ def _cross(system: System, point: CurvePoint, settings: Settings, piece: Piece) 
     beyond = system.move(x, y, _LEAVE * point.tangent)
     after = piece(*beyond)
     tangent = tangent_at(system, system.local(*beyond), beyond[1])
+    if np.any(np.isnan(tangent)):  # no model there carries no load: an edge, not a corner
+        return None
     # stiff stops hardly yield: a probe must move the state by more than the corner is known to
     moves = float(np.linalg.norm(tangent[: system.n]))
     probe = min(max(_LEAVE, 100.0 * _EXACT / max(moves, 1e-300)), 0.5)

@@ -78,6 +78,11 @@ def _broyden(step: Array, steps: list[Array]) -> Array:
     return step
 
 
+def undefined(system: System) -> str:
+    """Say why f has no value; a problem that knows more says so by an attribute `failure`."""
+    return getattr(system.problem, "failure", "") or "f is not finite there"
+
+
 def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None, settings: Settings) -> Corrected:
     """Return to the curve from a prediction, moving orthogonally to `row`.
 
@@ -94,7 +99,7 @@ def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None,
         step = _broyden(_newton_step(system, local, y, lu, row)[0], steps)
         last, size = size, float(np.linalg.norm(step))
         if not size < _LARGEST_STEP:
-            failure = "the corrector diverged" if np.isfinite(size) else "f is not finite there"
+            failure = "the corrector diverged" if np.isfinite(size) else undefined(system)
             break
         ratio = size / last if np.isfinite(last) else 0.0
         x, y = system.move(x, y, step)

@@ -1,0 +1,487 @@
+"""Parameters that edit the spec: held against closed forms, and against fields where a field does the same."""
+
+import math
+
+import mujoco
+import numpy as np
+import pytest
+
+import mjcont as mc
+
+GRAVITY, DENSITY, STIFFNESS, DAMPING = 9.81, 1000.0, 1.0, 0.002
+RADIUS, LENGTH, REST = 0.02, 0.3, math.radians(3.0)
+ROD = f"""
+<mujoco model="rod">
+  <compiler angle="degree"/>
+  <option gravity="0 0 -{GRAVITY}"/>
+  <custom>{{declarations}}</custom>
+  <worldbody>
+    <body name="rod">
+      <joint name="hip" type="hinge" axis="0 1 0" stiffness="{STIFFNESS}" damping="{DAMPING}" springref="{{rest}}"/>
+      <geom name="rod" type="cylinder" size="{RADIUS}" fromto="0 0 0 0 0 {LENGTH}" density="{DENSITY}"/>
+      <site name="tip" pos="0 0 {LENGTH}"/>
+    </body>
+  </worldbody>
+  <actuator><motor name="torque" joint="hip"/></actuator>
+  <sensor><framepos name="tip" objtype="site" objname="tip"/></sensor>
+  <keyframe><key name="leaning" qpos="0.4"/></keyframe>
+</mujoco>
+"""
+DECLARED = '<text name="mjcont/length" data="unit=m bounds=0.1,0.6 : spec:geom:rod.fromto[5] spec:site:tip.pos[2]"/>'
+
+
+def rod(declarations: str = DECLARED, rest: float = 3.0) -> mc.Mechanism:
+    """An upright uniform rod on a torsion spring, whose length changes mass, inertia and centre of mass."""
+    return mc.Mechanism.from_xml(ROD.format(declarations=declarations, rest=rest))
+
+
+def mass(length, radius=RADIUS):
+    return DENSITY * math.pi * radius**2 * length
+
+
+def weight_moment(length, radius=RADIUS):
+    return mass(length, radius) * GRAVITY * length / 2.0
+
+
+def inertia(length, radius=RADIUS):
+    return mass(length, radius) * (radius**2 / 4.0 + length**2 / 3.0)
+
+
+def fold_angle():
+    """tan(theta) = theta - rest, on the far side of the spring's rest: the fold, whatever the rod weighs."""
+    theta = -0.3
+    for _ in range(50):
+        theta -= (math.tan(theta) - theta + REST) / math.tan(theta) ** 2
+    return theta
+
+
+def set_length(spec, value):
+    spec.geom("rod").fromto[5] = value
+    spec.site("tip").pos[2] = value
+
+
+def with_function(**options):
+    mechanism = rod("")
+    mechanism.declare("length", function=set_length, value=LENGTH, unit="m", bounds=(0.1, 0.6), **options)
+    return mechanism
+
+
+BOTH = pytest.mark.parametrize("make", [rod, with_function], ids=["paths", "function"])
+
+
+# -- mass, inertia, forces -----------------------------------------------------------------------------------
+
+
+@BOTH
+@pytest.mark.parametrize("length", [0.15, LENGTH, 0.5])
+def test_a_length_changes_force_and_inertia_as_the_closed_form_does(make, length):
+    mechanism = make()
+    values, theta = mechanism.values({"length": length, "load_factor": 2.0}), 0.4
+    torque = 2.0 * weight_moment(length) * math.sin(theta) - STIFFNESS * (theta - REST)
+    assert mechanism.residual(np.array([theta]), values) == pytest.approx([torque], rel=1e-13)
+    pencil = mechanism.pencil(np.array([theta]), values, np.zeros((1, 1)))
+    assert pencil.mass[0, 0] == pytest.approx(inertia(length), rel=1e-13)
+    assert pencil.damping[0, 0] == pytest.approx(DAMPING, rel=1e-12)
+
+
+@BOTH
+def test_the_derivative_in_a_length_is_that_of_the_closed_form(make):
+    mechanism = make()
+    theta, length = 0.4, 0.35
+    found = mechanism.linearize(np.array([theta]), mechanism.values({"length": length}), ["length"])
+    expected = 2.0 * weight_moment(length) / length * math.sin(theta)
+    assert found.par[0, 0] == pytest.approx(expected, rel=1e-10)
+
+
+def test_two_parameters_of_the_spec_act_together():
+    mechanism = with_function()
+    mechanism.declare("radius", "spec:geom:rod.size[0]", unit="m")
+    values = mechanism.values({"length": 0.5, "radius": 0.03})
+    found = mechanism.pencil(np.zeros(1), values, np.zeros((1, 1))).mass[0, 0]
+    assert found == pytest.approx(inertia(0.5, 0.03), rel=1e-13)
+
+
+def test_other_parameters_are_written_on_top_of_the_geometry():
+    mechanism = rod()
+    mechanism.declare("k", "joint:hip.stiffness")
+    values = mechanism.values({"length": 0.5, "k": 7.0, "torque": 0.25, "gravity_angle": 0.3})
+    expected = 0.25 + weight_moment(0.5) * math.sin(0.4 - 0.3) - 7.0 * (0.4 - REST)
+    assert mechanism.residual(np.array([0.4]), values) == pytest.approx([expected], rel=1e-12)
+
+
+def test_a_mass_given_by_its_field_overrides_that_of_the_geometry():
+    mechanism = rod()
+    mechanism.declare("m", "body:rod.mass")
+    values = mechanism.values({"length": 0.5, "m": 2.0})
+    found = mechanism.residual(np.array([0.4]), values)[0]
+    expected = 2.0 * GRAVITY * 0.25 * math.sin(0.4) - STIFFNESS * (0.4 - REST)
+    assert found == pytest.approx(expected, rel=1e-12)
+
+
+def test_observables_follow_the_geometry():
+    mechanism = rod()
+    found = mechanism.measure(np.array([[math.pi / 2]]), mechanism.values({"length": 0.5}), ["tip[0]"])
+    assert found[0, 0] == pytest.approx(0.5, rel=1e-14)
+
+
+def test_angles_of_the_spec_are_radians_whatever_the_xml_says():
+    mechanism = rod("")
+    parameter = mechanism.declare("rest", "spec:joint:hip.springref", unit="rad")
+    assert parameter.value == pytest.approx(REST, rel=1e-14)
+    found = mechanism.residual(np.zeros(1), mechanism.values({"rest": 0.2}))
+    assert found == pytest.approx([STIFFNESS * 0.2], rel=1e-13)
+
+
+def test_factor_offset_and_pattern_are_those_of_field_paths():
+    mechanism = rod("")
+    parameter = mechanism.declare("half", "spec:geom:r*.fromto[5]*2+0.1", unit="m")
+    assert parameter.value == pytest.approx(0.1, rel=1e-14)
+    found = mechanism.pencil(np.zeros(1), mechanism.values({"half": 0.2}), np.zeros((1, 1))).mass[0, 0]
+    assert found == pytest.approx(inertia(0.5), rel=1e-13)
+
+
+def test_results_are_the_same_to_the_bit_whatever_was_evaluated_before():
+    cases = [{}, {"length": 0.5}, {"length": 0.2, "k": 3.0}, {"k": 3.0}, {"m": 2.0}, {"m": 2.0, "length": 0.45}]
+
+    def make():
+        mechanism = rod()
+        mechanism.declare("k", "joint:hip.stiffness")
+        mechanism.declare("m", "body:rod.mass")
+        return mechanism
+
+    def evaluate(mechanism, case):
+        values = mechanism.values(case)
+        return mechanism.linearize(np.array([0.4]), values, ["length", "torque"]), mechanism.measure(
+            np.array([[0.4]]), values
+        )
+
+    fresh, used = [evaluate(make(), case) for case in cases], make()
+    for index in np.random.default_rng(5).integers(0, len(cases), 40):
+        line, measured = evaluate(used, cases[index])
+        expected, expected_measured = fresh[index]
+        assert np.array_equal(line.f, expected.f) and np.array_equal(line.jac, expected.jac)
+        assert np.array_equal(line.par, expected.par)
+        assert np.array_equal(measured, expected_measured)
+
+
+def test_a_free_body_may_lose_its_symmetry():
+    # a body with its centre of mass at its frame has a simpler mass matrix, whose layout must not stay
+    text = """<mujoco><worldbody><body name="b"><joint type="slide" axis="1 0 0" stiffness="1"/>
+      <joint type="slide" axis="0 0 1" stiffness="1"/><joint type="hinge" axis="0 1 0" stiffness="1"/>
+      <geom name="g" type="capsule" size="0.02" fromto="-0.2 0 0 0.2 0 0"/></body></worldbody></mujoco>"""
+    changed = mc.Mechanism.from_xml(text)
+    values = changed.values({"load_factor": 1.0})
+    changed.residual(changed.qpos0, values)
+    end = changed.parameter("spec:geom:g.fromto[3]")
+    fresh = mc.Mechanism.from_xml(text.replace("0.2 0 0\"", "0.35 0 0\""))
+    q = np.array([0.1, 0.2, 0.3])
+    found = changed.pencil(q, changed.values({end.name: 0.35}), np.zeros((3, 3))).mass
+    assert found == pytest.approx(fresh.pencil(q, fresh.values(), np.zeros((3, 3))).mass, abs=1e-14)
+    assert abs(found[2, 1]) > 0.01
+
+
+def test_a_model_that_rests_on_a_stop_is_recompiled_as_well():
+    through_spec, through_field = mc.Mechanism.from_xml("toggle_clamp"), mc.Mechanism.from_xml("toggle_clamp")
+    through_spec.declare("C", "spec:site:C.pos[0]", unit="m")
+    through_field.declare("C", "site:C.pos[0]", unit="m")
+    for theta in (0.0524, 0.0):
+        values = through_spec.values({"C": 0.301, "M": 3.0})
+        expected = through_field.residual(np.array([theta]), values)
+        assert through_spec.residual(np.array([theta]), values) == pytest.approx(expected, rel=1e-10)
+
+
+def test_a_floating_body_computed_before_keeps_its_branch_when_a_geometry_is_declared():
+    text = """<mujoco><option gravity="0 0 0"/><worldbody><body name="hull"><freejoint/><geom name="hull" size="0.1"/>
+      <body name="arm"><joint name="j" axis="0 1 0" stiffness="1"/>
+      <geom name="arm" type="capsule" size="0.02" fromto="0 0 0 0.3 0 0"/></body></body></worldbody>
+      <actuator><motor name="T" joint="j"/></actuator></mujoco>"""
+    mechanism = mc.Mechanism.from_xml(text)
+    branch = mc.continue_equilibria(mechanism, "T", bounds=(-0.5, 0.5))
+    mechanism.declare("length", "spec:geom:arm.fromto[3]", unit="m", bounds=(0.2, 0.5))
+    assert branch.problem.held
+    start = branch.at(T=0.2)[0]
+    assert start["j"] == pytest.approx(0.2, rel=1e-9)
+    lengths = mc.continue_equilibria(branch.problem, "length", start=start)
+    assert lengths["j"] == pytest.approx(0.2, rel=1e-9)  # no gravity: the arm's length moves nothing
+    assert lengths["length"].max() == pytest.approx(0.5)
+
+
+# -- curves --------------------------------------------------------------------------------------------------
+
+
+@BOTH
+def test_the_pitchfork_load_of_an_upright_rod_is_that_of_its_length(make):
+    text = ROD.format(declarations=DECLARED if make is rod else "", rest=0)
+    mechanism = mc.Mechanism.from_xml(text)
+    if make is with_function:
+        mechanism.declare("length", function=set_length, value=LENGTH)
+    branch = mc.continue_equilibria(mechanism, "load_factor", bounds=(0, 10), start={"length": 0.4, "load_factor": 0})
+    assert branch.point("BP1")["load_factor"] == pytest.approx(STIFFNESS / weight_moment(0.4), rel=1e-9)
+
+
+def test_the_pitchfork_length_of_an_upright_rod_is_where_its_spring_gives_way():
+    branch = mc.continue_equilibria(rod(rest=0.0), "length", bounds=(0.1, 0.6), start={"length": 0.1})
+    critical = math.sqrt(2.0 * STIFFNESS / (DENSITY * math.pi * RADIUS**2 * GRAVITY))
+    assert branch.point("BP1")["length"] == pytest.approx(critical, rel=1e-9)
+
+
+@BOTH
+def test_a_fold_followed_in_load_and_length_keeps_load_times_length_squared(make):
+    mechanism = make()
+    branch = mc.continue_equilibria(
+        mechanism, "load_factor", bounds=(0, 10), start={"load_factor": 9.0}, state=[-2.5]
+    )
+    fold = branch.point("LP1")
+    expected = STIFFNESS / (weight_moment(LENGTH) * math.cos(fold_angle()))
+    assert fold["load_factor"] == pytest.approx(expected, rel=1e-9)
+    locus = mc.continue_special(fold, "length", bounds=(0.2, 0.5))
+    assert locus["length"].min() == pytest.approx(0.2) and locus["length"].max() == pytest.approx(0.5)
+    assert locus["load_factor"] * locus["length"] ** 2 == pytest.approx(expected * LENGTH**2, rel=1e-8)
+    assert locus["hip"] == pytest.approx(fold_angle(), abs=1e-7)
+
+
+def test_eigenvalues_are_those_of_the_recompiled_inertia():
+    branch = mc.continue_equilibria(rod(), "length", bounds=(0.1, 0.6), start={"length": 0.1})
+    for i in range(0, len(branch), 7):
+        length, theta = branch["length"][i], branch["hip"][i]
+        stiffness = STIFFNESS - weight_moment(length) * math.cos(theta)
+        expected = np.roots([inertia(length), DAMPING, stiffness])
+        assert sorted(branch.eigenvalues[i], key=lambda s: (s.real, s.imag)) == pytest.approx(
+            sorted(expected, key=lambda s: (s.real, s.imag)), rel=1e-7
+        )
+
+
+def test_a_branch_in_a_length_of_the_overcentre_agrees_with_the_field_of_its_site():
+    cosine, sine = 0.5, math.sqrt(3.0) / 2.0  # the frame of link 1 is turned, a site's field is in the body's
+    through_spec, through_field = mc.Mechanism.from_xml("overcentre"), mc.Mechanism.from_xml("overcentre")
+    through_spec.declare("B", "spec:site:B_1.pos[0]", unit="m", bounds=(0.3, 0.7))
+    paths = (f"site:B_1.pos[0]*{cosine!r}", f"site:B_1.pos[2]*{sine!r}")
+    through_field.declare("B", *paths, unit="m", bounds=(0.3, 0.7))
+    points = []
+    for mechanism in (through_spec, through_field):
+        branch = mc.continue_equilibria(mechanism, "F", bounds=(-50, 50), start={"F": 50.0, "B": 0.55})
+        locus = mc.continue_special(branch.point("LP1"), "B", bounds=(0.45, 0.6))
+        lengths = mc.continue_equilibria(mechanism, "B", bounds=(0.3, 0.7), start={"F": 10.0})
+        points.append([*branch.special_points, locus.row(0), *lengths.at(B=0.35), *lengths.at(B=0.62)])
+    pairs = list(zip(*points, strict=True))
+    assert len(pairs) >= 5
+    for one, other in pairs:
+        assert one.state == pytest.approx(other.state, abs=1e-9)
+        assert one["F"] == pytest.approx(other["F"], abs=1e-9 * 50.0)
+        assert one["B"] == pytest.approx(other["B"], abs=1e-9)
+        assert one.stability == other.stability
+
+
+def test_a_branch_that_meets_the_edge_of_what_compiles_ends_there_with_a_sentence():
+    mechanism = rod("")
+    mechanism.declare("radius", "spec:geom:rod.size[0]", unit="m")
+    branch = mc.continue_equilibria(mechanism, "radius", bounds=(-0.01, 0.025))
+    word, sentence = branch.ends[0]
+    assert word == "step too small"
+    assert "the model does not compile at radius = " in sentence
+    assert 0.0 < branch["radius"].min() < 1e-3
+    assert branch["radius"].max() == pytest.approx(0.025)
+
+
+def test_a_branch_with_a_joint_limit_ends_at_the_edge_of_what_compiles():
+    text = ROD.format(declarations="", rest=3).replace('name="hip"', 'name="hip" limited="true" range="-90 90"')
+    mechanism = mc.Mechanism.from_xml(text)
+    mechanism.declare("radius", "spec:geom:rod.size[0]", unit="m")
+    branch = mc.continue_equilibria(mechanism, "radius", bounds=(-0.01, 0.02))
+    assert mechanism.constrained
+    assert "the model does not compile at radius = " in branch.ends[0][1]
+    assert branch.special_points == ()
+
+
+def test_a_start_at_the_very_edge_is_an_error_that_says_why():
+    def widen(spec, value):
+        spec.geom("rod").size[0] = RADIUS * (1.0 + math.sqrt(value))
+
+    mechanism = rod("")
+    mechanism.declare("width", function=widen, value=0.0, bounds=(0.0, 1.0))
+    with pytest.raises(mc.StartError, match="the function of 'width' has no value at width = -"):
+        mc.continue_equilibria(mechanism, "width")
+
+
+def test_a_branch_that_meets_the_edge_of_a_function_ends_there_with_a_sentence():
+    def taper(spec, value):
+        spec.geom("rod").size[0] = RADIUS * math.sqrt(1.0 - value)
+
+    mechanism = rod("")
+    mechanism.declare("taper", function=taper, value=0.0, bounds=(-0.5, 2.0))
+    branch = mc.continue_equilibria(mechanism, "taper")
+    assert "the function of 'taper' has no value at taper = " in branch.ends[-1][1] or "compile" in branch.ends[-1][1]
+    assert 0.9 < branch["taper"].max() < 1.0
+
+
+# -- what stays, what is stored ------------------------------------------------------------------------------
+
+
+def test_keyframes_and_controls_survive():
+    mechanism = with_function()
+    assert mechanism.start_state("leaning") == pytest.approx([0.4])
+    point = mc.find_equilibrium(mechanism, {"length": 0.2, "torque": 0.3}, keyframe="leaning")
+    theta = point.state[0]
+    balance = 0.3 + weight_moment(0.2) * math.sin(theta) - STIFFNESS * (theta - REST)
+    assert balance == pytest.approx(0.0, abs=1e-10)
+
+
+def test_a_time_history_swings_with_the_recompiled_inertia():
+    mechanism = rod(rest=0.0)
+    history = mc.simulate(
+        mechanism, {"length": 0.2}, 2.0, state=[0.01], integrator="RK4", timestep=5e-4, samples=4000
+    )
+    t, theta = history["time"], history["hip"]
+    stiffness, decay = STIFFNESS - weight_moment(0.2), DAMPING / (2.0 * inertia(0.2))
+    omega = math.sqrt(stiffness / inertia(0.2) - decay**2)
+    expected = 0.01 * np.exp(-decay * t) * (np.cos(omega * t) + decay / omega * np.sin(omega * t))
+    assert theta == pytest.approx(expected, abs=2e-5)
+
+
+def test_a_history_that_leaves_what_compiles_is_an_error_with_the_time():
+    mechanism = rod("")
+    radius = mechanism.declare("radius", "spec:geom:rod.size[0]", unit="m")
+    with pytest.raises(mc.ParameterError, match=r"at t = 0\.1.* s the model does not compile at radius = "):
+        mc.simulate(mechanism, {"radius": lambda t: radius.value * (1.0 - t / 0.1)}, 1.0)
+
+
+def test_a_parameter_by_path_is_rebuilt_from_a_result_file(tmp_path):
+    name = "spec:geom:rod.fromto[5]"
+    branch = mc.continue_equilibria(rod(""), name, bounds=(0.1, 0.4))
+    loaded = mc.load(branch.save(tmp_path / "length.h5"))
+    found = loaded.at(**{name: 0.25})[0]
+    theta = found.state[0]
+    assert weight_moment(0.25) * math.sin(theta) == pytest.approx(STIFFNESS * (theta - REST), rel=1e-9)
+
+
+def test_a_parameter_by_function_asks_for_the_mechanism_when_its_file_is_loaded(tmp_path):
+    mechanism = with_function()
+    path = mc.continue_equilibria(mechanism, "length", bounds=(0.1, 0.4)).save(tmp_path / "length.h5")
+    with pytest.raises(mc.ResultFileError, match=r"'length' is the Python function set_length.* problem=mechanism"):
+        mc.load(path)
+    assert mc.load(path, problem=mechanism).at(length=0.25)[0]["length"] == 0.25
+
+
+def test_a_spec_of_ones_own_is_edited_in_a_copy():
+    spec = mujoco.MjSpec.from_string(ROD.format(declarations="", rest=3))
+    mechanism = mc.Mechanism.from_spec(spec)
+    spec.geom("rod").fromto[5] = 0.9
+    mechanism.declare("length", function=set_length, value=LENGTH)
+    found = mechanism.pencil(np.zeros(1), mechanism.values({"length": 0.5}), np.zeros((1, 1))).mass[0, 0]
+    assert found == pytest.approx(inertia(0.5), rel=1e-13)
+    assert spec.geom("rod").fromto[5] == 0.9
+
+
+def test_meshes_beside_the_model_are_found_when_it_is_compiled_again(tmp_path, monkeypatch):
+    (tmp_path / "meshes").mkdir()
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+    (tmp_path / "meshes" / "corner.obj").write_text(corners)
+    (tmp_path / "part.xml").write_text("<mujoco><option density='0'/></mujoco>")
+    (tmp_path / "model.xml").write_text(
+        "<mujoco><compiler meshdir='meshes'/><include file='part.xml'/><asset><mesh file='corner.obj'/></asset>"
+        "<worldbody><body><joint name='j'/><geom name='g' type='mesh' mesh='corner'/></body></worldbody></mujoco>"
+    )
+    monkeypatch.chdir(tmp_path)
+    mechanism = mc.Mechanism.from_xml("model.xml")
+    monkeypatch.chdir("/")
+    density = mechanism.parameter("spec:geom:g.density")
+    q = np.zeros(1)
+    one, two = (
+        mechanism.pencil(q, mechanism.values({density.name: v}), np.zeros((1, 1))).mass[0, 0] for v in (1000, 2000)
+    )
+    assert two == pytest.approx(2.0 * one, rel=1e-12)
+
+
+def test_the_table_of_parameters_says_what_a_change_costs():
+    mechanism = rod()
+    mechanism.declare("m", "body:rod.mass", unit="kg")
+    mechanism.declare("k", "joint:hip.stiffness")
+    costs = {name: p.cost for name, p in mechanism.parameters.items()}
+    assert costs["torque"] == "nothing"
+    assert costs["gravity_angle"] == costs["k"] == "field"
+    assert costs["m"] == "field + constants"
+    assert costs["length"] == "recompile"
+    line = next(line for line in str(mechanism.parameters).splitlines() if line.split()[0] == "length")
+    assert line.split() == ["length", "0.3", "m", "0.1", "0.6", "recompile", *DECLARED.split(" : ")[1][:-3].split()]
+    assert str(mechanism.parameters) in str(mechanism)
+
+
+# -- wrong input ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [
+        ("spec:geom:rod.sise[0]", r"unknown attribute of a geom in the spec 'sise'\. Did you mean size\? Valid: "),
+        ("spec:geom:rods.size[0]", r"matches no geom of the model\. Its geom names: rod\."),
+        ("spec:light:sun.pos[0]", r"unknown object in a spec path 'light'.*Valid: actuator, body, equality, geom"),
+        ("spec:geom:rod.size[3]", r"index 3 is outside 0\.\.2"),
+        ("spec:geom:rod.density[0]", r"density is a number, without an index"),
+        ("spec:geom:rod.mass", r"the XML of geom 'rod' gives no mass; use density"),
+        ("spec:geom:rod.pos[2]", r"geom 'rod' is placed by fromto; use fromto\[0\]"),
+        ("spec:geom:rod.euler[1]", r"the XML of geom 'rod' gives no euler; use fromto"),
+        ("spec:body:rod.ipos[2]", r"gives no ipos; use the body's geoms"),
+        ("spec:geom:rod.size[1]", r"changes nothing in the compiled model: .*fromto over size\[1\]"),
+        ("spec:body:rod.mass", r"changes nothing in the compiled model: .*without <inertial>"),
+        ("spec:geom:rod.size", r"its targets disagree .* an index such as \[0\]"),
+        ("spec:geom:rod", r"an attribute is missing, as in spec:geom:rod\.pos\[0\]"),
+        ("spec:geom.size[0]", r"expected object:name\.attribute\[index\]\*factor\+offset"),
+    ],
+)
+def test_a_path_that_cannot_be_used_is_an_error_that_says_what_can(path, message):
+    with pytest.raises((mc.ParameterError, mc.NameLookupError), match=message):
+        rod("").parameter(path)
+
+
+def add_a_ball(spec, value):
+    if value > LENGTH:
+        spec.body("rod").add_geom(name="ball", size=[value, 0, 0])
+
+
+def set_other(spec, value):
+    spec.geom("rods").size[0] = value
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"function": add_a_ball, "value": LENGTH}, mc.ModelError, "'p' changes the structure .* ngeom is 2, not 1"),
+        ({"function": set_length, "value": 0.4}, mc.ParameterError, "at its value 0.4 .* the model as loaded"),
+        ({"function": set_length}, mc.ParameterError, "a function needs value="),
+        ({"function": set_other, "value": 1.0}, mc.ParameterError, "its function failed at p = 1: AttributeError"),
+        ({"value": 1.0}, mc.ParameterError, "value= goes with function="),
+        ({}, mc.ParameterError, "give at least one target"),
+    ],
+)
+def test_a_declaration_that_cannot_be_used_is_an_error_that_names_the_parameter(options, error, message):
+    with pytest.raises(error, match=message):
+        rod("").declare("p", **options)
+
+
+def test_paths_and_a_function_together_are_an_error():
+    with pytest.raises(mc.ParameterError, match="either paths or a function"):
+        rod("").declare("p", "spec:geom:rod.density", function=set_length, value=LENGTH)
+
+
+def test_targets_in_the_spec_and_in_fields_together_are_an_error():
+    with pytest.raises(mc.ParameterError, match=r"mixes targets in the spec with others \(joint:hip\.stiffness\)"):
+        rod("").declare("p", "spec:geom:rod.density", "joint:hip.stiffness")
+
+
+def test_a_compiled_model_has_no_spec():
+    model = mujoco.MjModel.from_xml_string(ROD.format(declarations="", rest=3))
+    with pytest.raises(mc.ParameterError, match="a compiled model does not carry: .*from_xml or Mechanism.from_spec"):
+        mc.Mechanism.from_model(model).parameter("spec:geom:rod.density")
+
+
+def test_a_value_at_which_the_model_does_not_compile_is_an_error():
+    with pytest.raises(mc.ParameterError, match=r"does not compile at length = 0: .*fromto"):
+        mc.find_equilibrium(rod(), {"length": 0.0})
+
+
+def test_a_mass_cannot_be_varied_by_its_field_where_the_geometry_has_changed_it():
+    mechanism = rod()
+    mechanism.declare("m", "body:rod.mass")
+    with pytest.raises(mc.ParameterError, match=r"'m' cannot be varied while 'length' has another value"):
+        mc.continue_equilibria(mechanism, "m", start={"length": 0.4})
+    assert len(mc.continue_equilibria(mechanism, "m", bounds=(0.3, 0.5))) > 3
