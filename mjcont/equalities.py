@@ -287,7 +287,7 @@ def describe_equalities(model: mujoco.MjModel) -> list[str]:
         if spring.kind != ROTATION:
             lines += [f"    {warning}" for warning in spring.warnings]
     if lines and model.opt.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE and _has_passive_forces(model):
-        lines.append('  stiffer in time histories: integrator="discrete" weighs them by M + hD + h^2 K, not M')
+        lines.append('  stiffer in time histories: integrator="discrete" weighs them with M + hD + h^2 K, not with M')
     return lines
 
 
