@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from mjcont.drawing import add_poses, draw, draw_poses
     from mjcont.extension import extend
     from mjcont.found import Equilibria, Equilibrium
-    from mjcont.histories import History, simulate
+    from mjcont.histories import History, simulate, simulate_many
     from mjcont.loci import continue_special
     from mjcont.mechanism import Mechanism
     from mjcont.numerics.settings import Settings
@@ -58,7 +58,7 @@ _HOMES = {
     "mjcont.numerics.settings": ("Settings",),
     "mjcont.plotting": ("plot",),
     "mjcont.found": ("Equilibria", "Equilibrium"),
-    "mjcont.histories": ("History", "simulate"),
+    "mjcont.histories": ("History", "simulate", "simulate_many"),
     "mjcont.search": ("find_equilibria",),
     "mjcont.stiffness": ("StiffnessStudy", "stiffness_study"),
     "mjcont.storage": ("load",),
@@ -110,6 +110,7 @@ __all__ = [
     "plot",
     "run_study",
     "simulate",
+    "simulate_many",
     "stiffness_study",
     "switch_branches",
 ]
