@@ -30,6 +30,7 @@ from mjcont.errors import (
 if TYPE_CHECKING:
     from mjcont.branch import Branch, Column, Point, SpecialPoint
     from mjcont.bushes import add_bushes, bushed_xml
+    from mjcont.certificates import Certificate, verify_stability
     from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
     from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
     from mjcont.drawing import add_poses, draw, draw_poses
@@ -49,6 +50,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "mjcont.branch": ("Branch", "Column", "Point", "SpecialPoint"),
     "mjcont.bushes": ("add_bushes", "bushed_xml"),
+    "mjcont.certificates": ("Certificate", "verify_stability"),
     "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
     "mjcont.drawing": ("add_poses", "draw", "draw_poses"),
@@ -75,6 +77,7 @@ except _metadata.PackageNotFoundError:
 __all__ = [
     "BoundsError",
     "Branch",
+    "Certificate",
     "Column",
     "Diagram",
     "Equilibria",
@@ -113,6 +116,7 @@ __all__ = [
     "simulate_many",
     "stiffness_study",
     "switch_branches",
+    "verify_stability",
 ]
 
 

@@ -6,11 +6,12 @@ import mujoco
 import numpy as np
 
 from mjcont.numerics.problem import Array
-from mjcont.rows import ConstrainedRows, Rows
+from mjcont.rows import ConstrainedRows, Rows, one_sided
 from mjcont.writer import FieldWriter
 
 _MAX_BATCHES = 32
 _ACCELERATION_STEP = 1e-3
+_VELOCITY_STEPS = (1.0, 1e-2, 1e-4, 1e-6)
 
 
 class Evaluator:
@@ -84,8 +85,20 @@ class Evaluator:
         return dense
 
     def damping(self, x: Array, scale: Array) -> Array:
-        """Return -d forces/dv, (nv, nv), centred with the steps `scale`: exact for linear dampers."""
+        """Return -d forces/dv, (nv, nv), centred with the steps `scale`: exact for linear dampers.
+
+        A limit or contact that the steps would make or break, by its own damping, asks for shorter ones.
+        """
         n = self.model.nv
-        steps = np.concatenate([np.diag(scale), -np.diag(scale)])
-        rows = self.forces(np.broadcast_to(x, (2 * n, len(x))), steps)
-        return ((rows[n:] - rows[:n]) / (2.0 * scale)[:, None]).T
+        if self._constrained is None:
+            steps = np.concatenate([np.diag(scale), -np.diag(scale)])
+            rows = self.forces(np.broadcast_to(x, (2 * n, len(x))), steps)
+            return ((rows[n:] - rows[:n]) / (2.0 * scale)[:, None]).T
+        many = np.broadcast_to(x, (1 + 2 * n, len(x)))
+        for part in _VELOCITY_STEPS:
+            steps = part * np.concatenate([np.diag(scale), -np.diag(scale)])
+            rows = self.forces(many, np.concatenate([np.zeros((1, n)), steps]))
+            if all(side == self.sides[0] for side in self.sides):
+                break
+        centred = ((rows[1 + n :] - rows[1 : 1 + n]) / (2.0 * part * scale)[:, None]).T
+        return -one_sided(-centred, rows, self.sides, steps)

@@ -65,7 +65,7 @@ class ConstrainedRows:
             d.qvel[:] = 0.0 if qvel is None else qvel[i]
             d.qacc[:] = 0.0 if qacc is None else qacc[i]
             mujoco.mj_inverse(m, d)
-            self.sides.append(_side(d))
+            self.sides.append(load_side(d))
             mujoco.mj_fwdActuation(m, d)
             out[i] = d.qfrc_actuator - d.qfrc_inverse
         return out
@@ -90,7 +90,7 @@ class ConstrainedRows:
         return frozenset(_loaded(m, d))
 
 
-def _side(d: mujoco.MjData) -> bytes:
+def load_side(d: mujoco.MjData) -> bytes:
     """Return what tells apart the smooth pieces of the forces: the constraints that carry load."""
     loaded = d.efc_force != 0.0
     return d.efc_type[loaded].tobytes() + d.efc_id[loaded].tobytes()

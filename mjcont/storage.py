@@ -89,6 +89,8 @@ def _write(branch: Branch, path: Path) -> None:
         f["residuals"] = branch.residuals
         f.create_group("fixed").attrs.update(dict(branch.fixed))
         f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
+        if branch.certificate is not None:
+            f.attrs["certificate"] = branch.certificate.to_json()
         group = f.create_group("special_points")
         for p in branch.special_points:
             _write_special(group.create_group(p.label), p)
@@ -204,6 +206,7 @@ def _read(f: h5py.File, problem: Any) -> Branch:
         start_index=int(f.attrs["start_index"]),
         neutral_saddles=json.loads(f.attrs["neutral_saddles"]),
         notes=json.loads(f.attrs["notes"]),
+        certificate=_read_certificate(f),
     )
     rows = {len(branch.states), len(branch.eigenvalues), len(branch.stability), len(branch.n_unstable)}
     if rows | {len(branch.residuals)} | {len(c.values) for c in columns.values()} != {len(branch.states)}:
@@ -211,6 +214,14 @@ def _read(f: h5py.File, problem: Any) -> Branch:
     points = [_read_special(f["special_points"][label], label, branch) for label in f["special_points"]]
     object.__setattr__(branch, "special_points", tuple(sorted(points, key=lambda p: p.index)))
     return branch
+
+
+def _read_certificate(f: h5py.File) -> Any:
+    if "certificate" not in f.attrs:
+        return None
+    from mjcont.certificates import Certificate
+
+    return Certificate.from_json(str(f.attrs["certificate"]))
 
 
 def frozen(array: np.ndarray) -> np.ndarray:
