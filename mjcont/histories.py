@@ -42,7 +42,7 @@ class History:
     status : "done", "at rest", "stalled" (the tolerance was not reached), "diverged" or "interrupted".
     message : a sentence.
     settings : integrator, timestep, duration, steps, control_step, tol, and error: by how much halving the step
-        changed the history, relative to the motion's size (NaN without tol).
+        changed the history, relative to the motion's size (None without tol).
     provenance : versions and the model's hash.
     problem : the Mechanism, or None for a loaded file without one.
     """
@@ -93,8 +93,8 @@ class History:
     def __str__(self) -> str:
         """Return a one-line summary."""
         s = self.settings
-        error = s.get("error", math.nan)
-        known = "no error estimate (tol= asks for one)" if math.isnan(error) else f"error about {error:.1e}"
+        error = s.get("error")
+        known = "no error estimate (tol= asks for one)" if error is None else f"error about {error:.1e}"
         return (
             f"{self.name}: time history of {self['time'][-1]:g} s, {len(self)} samples, "
             f"{s['integrator']} with a step of {s['timestep']:g} s, {known}: {self.message}"
@@ -352,9 +352,9 @@ def _history(mechanism: Mechanism, case: Case, outcome: _Outcome, plan: _Plan, c
         "timestep": grid.step,
         "duration": plan.duration,
         "steps": (len(times) - 1) * grid.every,
-        "control_step": grid.step * grid.hold if controlled else math.nan,
-        "tol": math.nan if plan.tol is None else plan.tol,
-        "error": outcome.error,
+        "control_step": grid.step * grid.hold if controlled else None,
+        "tol": plan.tol,
+        "error": None if math.isnan(outcome.error) else outcome.error,
     }
     return History(
         columns, states, velocities, status, message, settings, mechanism.name, mechanism, provenance(mechanism)
