@@ -334,3 +334,26 @@ def test_unknown_names_are_answered_with_the_valid_ones(overcentre):
 def test_an_input_that_leaves_its_actuators_range_on_the_way_is_refused(pendulum_xml):
     with pytest.raises(mc.BoundsError, match=r"input 'M' is 30.* at t = 0.3.* outside the actuator's ctrlrange"):
         mc.simulate(pendulum(pendulum_xml), {"M": lambda t: 100 * t}, 1.0)
+
+
+def test_an_interrupted_run_keeps_what_was_computed(pendulum_xml):
+    def interrupting(t, seen):
+        if t > 0.5:
+            raise KeyboardInterrupt
+        return 0.0
+
+    history = mc.simulate(pendulum(pendulum_xml), {"M": interrupting}, 1.0, tol=1e-2, control_step=0.01)
+    assert history.status == "interrupted"
+    assert history["time"][-1] == pytest.approx(0.51)
+
+
+def test_the_command_line_shows_and_exports_a_history_and_says_why_it_cannot_plot_it(overcentre, tmp_path, capsys):
+    from mjcont.cli import main
+
+    path = mc.simulate(overcentre, {"F": 50.0}, 0.1).save(tmp_path / "motion.h5")
+    assert main(["inspect", str(path)]) == 0
+    assert "time history of 0.1 s" in capsys.readouterr().out
+    assert main(["export", str(path)]) == 0
+    assert (tmp_path / "motion.csv").read_text().startswith("time [s],F [N],")
+    assert main(["plot", str(path), "-x", "time", "-y", "theta_1"]) == 2
+    assert "holds a time history" in capsys.readouterr().err
