@@ -12,6 +12,7 @@ from mjcont.writer import FieldWriter
 _MAX_BATCHES = 32
 _ACCELERATION_STEP = 1e-3
 _VELOCITY_STEPS = (1.0, 1e-2, 1e-4, 1e-6)
+_SHORT_STEPS = (1e-3, 1e-5)
 
 
 class Evaluator:
@@ -85,20 +86,32 @@ class Evaluator:
         return dense
 
     def damping(self, x: Array, scale: Array) -> Array:
-        """Return -d forces/dv, (nv, nv), centred with the steps `scale`: exact for linear dampers.
+        """Return -d forces/dv at rest, (nv, nv), centred with the steps `scale`: exact for linear dampers.
 
-        A limit or contact that the steps would make or break, by its own damping, asks for shorter ones.
+        A limit or contact that the steps would make or break, by its own damping, asks for shorter ones. So do
+        dampers and drag with terms in |v| v, which half the step and the whole cancel between them.
         """
-        n = self.model.nv
-        if self._constrained is None:
-            steps = np.concatenate([np.diag(scale), -np.diag(scale)])
-            rows = self.forces(np.broadcast_to(x, (2 * n, len(x))), steps)
-            return ((rows[n:] - rows[:n]) / (2.0 * scale)[:, None]).T
-        many = np.broadcast_to(x, (1 + 2 * n, len(x)))
-        for part in _VELOCITY_STEPS:
-            steps = part * np.concatenate([np.diag(scale), -np.diag(scale)])
-            rows = self.forces(many, np.concatenate([np.zeros((1, n)), steps]))
-            if all(side == self.sides[0] for side in self.sides):
+        linear = not self._damps_nonlinearly()
+        for part in _VELOCITY_STEPS if linear else _SHORT_STEPS:
+            found, one_piece = self._damping_over(x, part * scale)
+            if one_piece:
                 break
-        centred = ((rows[1 + n :] - rows[1 : 1 + n]) / (2.0 * part * scale)[:, None]).T
-        return -one_sided(-centred, rows, self.sides, steps)
+        return found if linear else 2.0 * self._damping_over(x, 0.5 * part * scale)[0] - found
+
+    def _damping_over(self, x: Array, scale: Array) -> tuple[Array, bool]:
+        """Return -d forces/dv over given steps, and whether the same limits and contacts bear in all of them."""
+        n = self.model.nv
+        steps = np.concatenate([np.diag(scale), -np.diag(scale)])
+        if self._constrained is None:
+            rows = self.forces(np.broadcast_to(x, (2 * n, len(x))), steps)
+            return ((rows[n:] - rows[:n]) / (2.0 * scale)[:, None]).T, True
+        rows = self.forces(np.broadcast_to(x, (1 + 2 * n, len(x))), np.concatenate([np.zeros((1, n)), steps]))
+        centred = ((rows[1 + n :] - rows[1 : 1 + n]) / (2.0 * scale)[:, None]).T
+        one_piece = all(side == self.sides[0] for side in self.sides)
+        return -one_sided(-centred, rows, self.sides, steps), one_piece
+
+    def _damps_nonlinearly(self) -> bool:
+        """Whether dampers or a fluid oppose motion with more than its first power."""
+        m = self.model
+        fluid = m.opt.density > 0 or m.opt.viscosity > 0
+        return bool(fluid or any(np.any(p) for p in (m.dof_dampingpoly, m.tendon_dampingpoly, m.actuator_dampingpoly)))

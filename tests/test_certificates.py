@@ -72,6 +72,21 @@ def test_a_falling_pendulums_rate_is_the_root_of_its_equation(pendulum_xml):
     assert check.rate == pytest.approx(expected, rel=1e-4)
 
 
+@pytest.mark.parametrize("damping", ["0.5 0.7", "0.5 0 0.7"])
+def test_damping_at_rest_is_the_linear_term_of_a_nonlinear_damper(pendulum_xml, damping):
+    actuator = '<motor name="M" joint="hip"/>'
+    mechanism = mc.Mechanism.from_xml(pendulum_xml(joint=f'damping="{damping}"', actuator=actuator))
+    assert mechanism.pencil(mechanism.qpos0, mechanism.values(), np.zeros((1, 1))).damping[0, 0] == pytest.approx(
+        0.5, rel=1e-6
+    )
+
+
+def test_drag_in_a_fluid_is_linearised_at_rest(pendulum_xml):
+    text = pendulum_xml(option='density="1000" viscosity="0.1"', actuator='<motor name="M" joint="hip"/>')
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml(text), "M", bounds=(-1, 1))
+    assert mc.verify_stability(branch, 3).certificate.holds
+
+
 def test_damping_of_a_stop_is_that_of_the_stop_however_lightly_it_is_loaded():
     # the stop of the toggle clamp is a linear spring and damper while it bears: its dampers do not depend on the load
     branch = curve("toggle_clamp")
