@@ -31,13 +31,14 @@ from mjcont.errors import (
 if TYPE_CHECKING:
     from mjcont.branch import Branch, Column, Point, SpecialPoint
     from mjcont.bushes import add_bushes, bushed_xml, set_constraint_stiffness
+    from mjcont.certificates import Certificate, verify_stability
     from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
     from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
     from mjcont.drawing import add_poses, draw, draw_poses
     from mjcont.equalities import ConstraintStiffness, constraint_stiffness
     from mjcont.extension import extend
     from mjcont.found import Equilibria, Equilibrium
-    from mjcont.histories import History, simulate
+    from mjcont.histories import History, simulate, simulate_many
     from mjcont.loci import continue_special
     from mjcont.mechanism import Mechanism
     from mjcont.numerics.settings import Settings
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "mjcont.branch": ("Branch", "Column", "Point", "SpecialPoint"),
     "mjcont.bushes": ("add_bushes", "bushed_xml", "set_constraint_stiffness"),
+    "mjcont.certificates": ("Certificate", "verify_stability"),
     "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
     "mjcont.drawing": ("add_poses", "draw", "draw_poses"),
@@ -61,7 +63,7 @@ _HOMES = {
     "mjcont.numerics.settings": ("Settings",),
     "mjcont.plotting": ("plot",),
     "mjcont.found": ("Equilibria", "Equilibrium"),
-    "mjcont.histories": ("History", "simulate"),
+    "mjcont.histories": ("History", "simulate", "simulate_many"),
     "mjcont.search": ("find_equilibria",),
     "mjcont.stiffness": ("StiffnessStudy", "stiffness_study"),
     "mjcont.storage": ("load",),
@@ -78,6 +80,7 @@ except _metadata.PackageNotFoundError:
 __all__ = [
     "BoundsError",
     "Branch",
+    "Certificate",
     "Column",
     "ConstraintStiffness",
     "Diagram",
@@ -117,8 +120,10 @@ __all__ = [
     "run_study",
     "set_constraint_stiffness",
     "simulate",
+    "simulate_many",
     "stiffness_study",
     "switch_branches",
+    "verify_stability",
 ]
 
 

@@ -7,12 +7,15 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.problem import Array
+
+if TYPE_CHECKING:
+    from mjcont.certificates import Certificate
 
 KIND_NAMES = {
     "LP": "fold",
@@ -153,6 +156,7 @@ class Branch:
     start_index : row of the start.
     neutral_saddles : where two real eigenvalues of opposite sign were seen, by free parameter: no Hopf points.
     notes : sentences on the branch as a whole.
+    certificate : what `verify_stability` found, or None.
     """
 
     kind: str
@@ -176,6 +180,7 @@ class Branch:
     neutral_saddles: Sequence[Mapping[str, float]] = ()
     notes: Sequence[str] = ()
     fixed_units: Mapping[str, str] = field(default_factory=dict)
+    certificate: Certificate | None = field(repr=False, default=None)
 
     def __len__(self) -> int:
         """Return the number of points."""
@@ -304,6 +309,7 @@ class Branch:
             lines.append("  stability: " + self._stability_runs())
         lines += [f"  {p}" for p in self.special_points] or ["  no special points"]
         lines += [f"  note: {n}" for n in self.notes]
+        lines += [f"  {self.certificate.headline}"] if self.certificate is not None else []
         lines += [f"  {which} end: {word}: {sentence}" for which, (word, sentence) in zip(
             ("first", "last"), self.ends, strict=False)]
         return "\n".join(lines)

@@ -106,7 +106,7 @@ def _run(args: argparse.Namespace) -> int:
 def _plot(args: argparse.Namespace) -> int:
     from mjcont.plotting import plot, save_figure
 
-    branches = [_load(file) for file in args.files]
+    branches = [_load_branch(file) for file in args.files]
     for file, branch in zip(args.files, branches, strict=True):
         for column in (args.x, args.y):
             with _naming(file):
@@ -194,10 +194,19 @@ def _naming(file: str) -> Iterator[None]:
         raise type(error)(f"'{file}': {error}") from error
 
 
-def _load(path: str) -> Branch:
+def _load(path: str) -> Any:
     from mjcont.storage import load
 
     return load(path)
+
+
+def _load_branch(path: str) -> Branch:
+    from mjcont.branch import Branch
+
+    result = _load(path)
+    if not isinstance(result, Branch):
+        raise ResultFileError(f"'{path}' holds a time history: inspect and export take it, this command takes branches")
+    return result
 
 
 def _point_of_model(args: argparse.Namespace) -> Point | None:
@@ -222,7 +231,7 @@ def _point_of_result(args: argparse.Namespace) -> Point:
 
     if args.keyframe:
         raise MjcontError("--keyframe goes with a model; for a result file use --label or --at")
-    branch = _load(args.model)
+    branch = _load_branch(args.model)
     if branch.problem is None:
         raise ResultFileError(f"result file '{args.model}' holds no model to view")
     if args.label:

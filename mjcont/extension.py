@@ -215,6 +215,7 @@ def _join(branch: Branch, segment: Branch, end: str) -> Branch:
         ends=ends,
         start_index=branch.start_index + (len(segment) if end == "first" else 0),
         neutral_saddles=[*front.neutral_saddles, *back.neutral_saddles],
+        certificate=None,  # its rows have moved
     )
     points = [(p, p.index) for p in front.special_points]
     points += [(p, p.index + len(front)) for p in back.special_points]

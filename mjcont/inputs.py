@@ -119,6 +119,10 @@ class DataInputs:
         activations, controls = self._follow
         self._fields["act"][activations] = self.ctrl[controls]
 
+    def copies(self) -> dict[str, np.ndarray]:
+        """Return copies of all inputs by field."""
+        return {name: array.copy() for name, array in self._fields.items()}
+
     def put(self, data: mujoco.MjData) -> None:
         """Put the inputs into data, activations at rest."""
         for name, array in self._present:

@@ -162,6 +162,14 @@ def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     return private
 
 
+def simulation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
+    """Return a private copy for time histories; diverging motion is not reset silently."""
+    private = copy_model(model)
+    private.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # as in `evaluation_copy`
+    private.opt.disableflags |= int(_DISABLE.mjDSBL_AUTORESET) | int(_DISABLE.mjDSBL_SENSOR)
+    return private
+
+
 def is_constrained(model: mujoco.MjModel) -> bool:
     """Return whether equality constraints, limits or contacts can act in the model."""
     off = int(model.opt.disableflags)

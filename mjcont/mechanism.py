@@ -381,9 +381,7 @@ class Mechanism:
 
     def simulation_model(self) -> mujoco.MjModel:
         """Return a copy of the model as loaded, for time histories; diverging motion is not reset silently."""
-        model = loading.copy_model(self._loaded)
-        model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET) | int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
-        return model
+        return loading.simulation_copy(self._loaded)
 
     def writer(self, model: mujoco.MjModel) -> FieldWriter:
         """Return what writes parameter values into a copy of the model."""

@@ -84,7 +84,7 @@ class ConstrainedRows:
             d.qacc[:] = 0.0 if qacc is None else qacc[i]
             mujoco.mj_inverse(m, d)
             mujoco.mj_fwdActuation(m, d)
-            side = _side(m, d)
+            side = load_side(m, d)
             self.sides.append(side if self._kinks is None else side + codes_at(self._kinks, m, d).tobytes())
             out[i] = d.qfrc_actuator - d.qfrc_inverse
             if d.ncon and (qvel is not None or qacc is not None):
@@ -132,7 +132,7 @@ def _contact_friction(m: mujoco.MjModel, d: mujoco.MjData) -> Array:
     return out
 
 
-def _side(m: mujoco.MjModel, d: mujoco.MjData) -> bytes:
+def load_side(m: mujoco.MjModel, d: mujoco.MjData) -> bytes:
     """Return what tells apart the smooth pieces of the forces: the constraints that carry load."""
     loaded = d.efc_force != 0.0
     kind, index = d.efc_type[loaded], d.efc_id[loaded]

@@ -79,15 +79,7 @@ def _write(branch: Branch, path: Path) -> None:
             neutral_saddles=json.dumps(list(branch.neutral_saddles)),
             notes=json.dumps(list(branch.notes)),
         )
-        f.attrs.update({f"provenance_{k}": v for k, v in branch.provenance.items()})
-        mjcf = getattr(branch.problem, "mjcf", None)
-        if mjcf is not None:
-            f["model"] = mjcf
-        for c in branch.columns.values():
-            f.create_dataset(f"columns/{c.name}", data=c.values, track_order=True).attrs.update(
-                unit=c.unit, role=c.role
-            )
-        f["columns"].attrs["order"] = json.dumps(list(branch.columns))
+        write_common(f, branch)
         f["states"] = branch.states
         f["states"].attrs.update(
             names=json.dumps([n for n, _ in branch.state_labels]), units=json.dumps([u for _, u in branch.state_labels])
@@ -99,10 +91,23 @@ def _write(branch: Branch, path: Path) -> None:
         f["residuals"] = branch.residuals
         f.create_group("fixed").attrs.update(dict(branch.fixed))
         f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
-        f.attrs["declared"] = json.dumps(getattr(branch.problem, "declared", {}))
+        if branch.certificate is not None:
+            f.attrs["certificate"] = branch.certificate.to_json()
         group = f.create_group("special_points")
         for p in branch.special_points:
             _write_special(group.create_group(p.label), p)
+
+
+def write_common(f: h5py.File, result: Any) -> None:
+    """Write what every result has: its columns, its model and where it comes from."""
+    f.attrs.update({f"provenance_{k}": v for k, v in result.provenance.items()})
+    mjcf = getattr(result.problem, "mjcf", None)
+    if mjcf is not None:
+        f["model"] = mjcf
+    f.attrs["declared"] = json.dumps(getattr(result.problem, "declared", {}))
+    for c in result.columns.values():
+        f.create_dataset(f"columns/{c.name}", data=c.values, track_order=True).attrs.update(unit=c.unit, role=c.role)
+    f["columns"].attrs["order"] = json.dumps(list(result.columns))
 
 
 def _write_special(g: h5py.Group, p: SpecialPoint) -> None:
@@ -119,8 +124,8 @@ def _write_special(g: h5py.Group, p: SpecialPoint) -> None:
         g[f"vectors/{name}"] = vector
 
 
-def load(path: str | Path, problem: Any = None) -> Branch:
-    """Read a branch; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
+def load(path: str | Path, problem: Any = None) -> Any:
+    """Read a Branch or a History; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
 
     Raises
     ------
@@ -144,6 +149,10 @@ def load(path: str | Path, problem: Any = None) -> Branch:
                     f"result file '{path}' has format version {version}; this mjcont reads up to "
                     f"{FORMAT_VERSION}: upgrade mjcont"
                 )
+            if f.attrs["kind"] == "history":
+                from mjcont.historyfiles import read
+
+                return read(f, problem)
             return _read(f, problem)
         except ResultFileError:
             raise
@@ -151,7 +160,8 @@ def load(path: str | Path, problem: Any = None) -> Branch:
             raise ResultFileError(f"result file '{path}' is incomplete or damaged: {error}") from error
 
 
-def _read(f: h5py.File, problem: Any) -> Branch:
+def read_problem(f: h5py.File, problem: Any) -> Any:
+    """Return the problem given, or the Mechanism rebuilt from the file's MJCF, or None."""
     if problem is None and "model" in f:
         from mjcont.mechanism import Mechanism
 
@@ -165,22 +175,32 @@ def _read(f: h5py.File, problem: Any) -> Branch:
                     "which a file cannot carry: declare it on a Mechanism again and load with problem=mechanism"
                 )
             problem.declare(name, *given["paths"], unit=given["unit"], bounds=given["bounds"])
-    columns = {}
+    return problem
+
+
+def read_columns(f: h5py.File) -> dict[str, Column]:
+    """Return the columns in their order."""
+    found = {}
     for name in json.loads(f["columns"].attrs["order"]):
         d = f["columns"][name]
-        columns[name] = Column(name, d.attrs["unit"], d.attrs["role"], _frozen(d[()]))
+        found[name] = Column(name, d.attrs["unit"], d.attrs["role"], frozen(d[()]))
+    return found
+
+
+def _read(f: h5py.File, problem: Any) -> Branch:
+    problem, columns = read_problem(f, problem), read_columns(f)
     words = {v: k for k, v in _CODES.items()}
     labels = list(zip(json.loads(f["states"].attrs["names"]), json.loads(f["states"].attrs["units"]), strict=True))
     branch = Branch(
         kind=str(f.attrs["kind"]),
         name=str(f.attrs["name"]),
         columns=columns,
-        states=_frozen(f["states"][()]),
+        states=frozen(f["states"][()]),
         state_labels=labels,
-        eigenvalues=_frozen(f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]),
-        stability=_frozen(np.array([words[int(c)] for c in f["stability"][()]], dtype="U8")),
-        n_unstable=_frozen(f["n_unstable"][()].astype(int)),
-        residuals=_frozen(f["residuals"][()]),
+        eigenvalues=frozen(f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]),
+        stability=frozen(np.array([words[int(c)] for c in f["stability"][()]], dtype="U8")),
+        n_unstable=frozen(f["n_unstable"][()].astype(int)),
+        residuals=frozen(f["residuals"][()]),
         special_points=(),
         free={k: tuple(v) for k, v in json.loads(f.attrs["free"]).items()},
         fixed={k: float(v) for k, v in f["fixed"].attrs.items()},
@@ -195,6 +215,7 @@ def _read(f: h5py.File, problem: Any) -> Branch:
         start_index=int(f.attrs["start_index"]),
         neutral_saddles=json.loads(f.attrs["neutral_saddles"]),
         notes=json.loads(f.attrs["notes"]),
+        certificate=_read_certificate(f),
     )
     rows = {len(branch.states), len(branch.eigenvalues), len(branch.stability), len(branch.n_unstable)}
     if rows | {len(branch.residuals)} | {len(c.values) for c in columns.values()} != {len(branch.states)}:
@@ -204,7 +225,16 @@ def _read(f: h5py.File, problem: Any) -> Branch:
     return branch
 
 
-def _frozen(array: np.ndarray) -> np.ndarray:
+def _read_certificate(f: h5py.File) -> Any:
+    if "certificate" not in f.attrs:
+        return None
+    from mjcont.certificates import Certificate
+
+    return Certificate.from_json(str(f.attrs["certificate"]))
+
+
+def frozen(array: np.ndarray) -> np.ndarray:
+    """Return an array made read-only."""
     array.flags.writeable = False
     return array
 
