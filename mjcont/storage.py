@@ -12,6 +12,8 @@ Layout of an HDF5 file (format version 1)::
     /residuals            (N,) float64, scaled
     /fixed                attributes: the other parameters' values
     /special_points/LABEL attributes: kind, index, tolerance, converged, note, coefficients (JSON); vectors/NAME
+
+A load path (kind "load path") holds such a group for each of its segments: see `pathfiles`.
 """
 
 from __future__ import annotations
@@ -23,13 +25,16 @@ import os
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
 
 from mjcont.branch import Branch, Column, Point, SpecialPoint
 from mjcont.errors import MjcontError, ResultFileError
+
+if TYPE_CHECKING:
+    from mjcont.pathresults import LoadPath
 
 FORMAT_VERSION = 1
 # What h5py, json and our own reading raise on files with parts missing or overwritten.
@@ -64,43 +69,48 @@ def save(branch: Branch, path: str | Path) -> Path:
 
 def _write(branch: Branch, path: Path) -> None:
     with h5py.File(path, "w") as f:
-        f.attrs.update(
-            format="mjcont",
-            format_version=FORMAT_VERSION,
-            kind=branch.kind,
-            name=branch.name,
-            start=branch.start,
-            start_index=branch.start_index,
-            settings=branch.settings_json(),
-            free=json.dumps(branch.free),
-            ends=json.dumps(list(branch.ends)),
-            neutral_saddles=json.dumps(list(branch.neutral_saddles)),
-            notes=json.dumps(list(branch.notes)),
+        write_branch(branch, f)
+
+
+def write_branch(branch: Branch, f: h5py.Group, *, model: bool = True) -> None:
+    """Write a branch into a file or a group of one, with its model unless the file has that elsewhere."""
+    f.attrs.update(
+        format="mjcont",
+        format_version=FORMAT_VERSION,
+        kind=branch.kind,
+        name=branch.name,
+        start=branch.start,
+        start_index=branch.start_index,
+        settings=branch.settings_json(),
+        free=json.dumps(branch.free),
+        ends=json.dumps(list(branch.ends)),
+        neutral_saddles=json.dumps(list(branch.neutral_saddles)),
+        notes=json.dumps(list(branch.notes)),
+    )
+    f.attrs.update({f"provenance_{k}": v for k, v in branch.provenance.items()})
+    mjcf = getattr(branch.problem, "mjcf", None)
+    if mjcf is not None and model:
+        f["model"] = mjcf
+    for c in branch.columns.values():
+        f.create_dataset(f"columns/{c.name}", data=c.values, track_order=True).attrs.update(
+            unit=c.unit, role=c.role
         )
-        f.attrs.update({f"provenance_{k}": v for k, v in branch.provenance.items()})
-        mjcf = getattr(branch.problem, "mjcf", None)
-        if mjcf is not None:
-            f["model"] = mjcf
-        for c in branch.columns.values():
-            f.create_dataset(f"columns/{c.name}", data=c.values, track_order=True).attrs.update(
-                unit=c.unit, role=c.role
-            )
-        f["columns"].attrs["order"] = json.dumps(list(branch.columns))
-        f["states"] = branch.states
-        f["states"].attrs.update(
-            names=json.dumps([n for n, _ in branch.state_labels]), units=json.dumps([u for _, u in branch.state_labels])
-        )
-        f["eigenvalues/real"], f["eigenvalues/imag"] = branch.eigenvalues.real, branch.eigenvalues.imag
-        f["stability"] = np.array([_CODES[s] for s in branch.stability], dtype=np.int8)
-        f["stability"].attrs["meaning"] = "1 stable, 0 marginal, -1 unstable"
-        f["n_unstable"] = branch.n_unstable.astype(np.int32)
-        f["residuals"] = branch.residuals
-        f.create_group("fixed").attrs.update(dict(branch.fixed))
-        f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
-        f.attrs["declared"] = json.dumps(getattr(branch.problem, "declared", {}))
-        group = f.create_group("special_points")
-        for p in branch.special_points:
-            _write_special(group.create_group(p.label), p)
+    f["columns"].attrs["order"] = json.dumps(list(branch.columns))
+    f["states"] = branch.states
+    f["states"].attrs.update(
+        names=json.dumps([n for n, _ in branch.state_labels]), units=json.dumps([u for _, u in branch.state_labels])
+    )
+    f["eigenvalues/real"], f["eigenvalues/imag"] = branch.eigenvalues.real, branch.eigenvalues.imag
+    f["stability"] = np.array([_CODES[s] for s in branch.stability], dtype=np.int8)
+    f["stability"].attrs["meaning"] = "1 stable, 0 marginal, -1 unstable"
+    f["n_unstable"] = branch.n_unstable.astype(np.int32)
+    f["residuals"] = branch.residuals
+    f.create_group("fixed").attrs.update(dict(branch.fixed))
+    f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
+    f.attrs["declared"] = json.dumps(getattr(branch.problem, "declared", {}))
+    group = f.create_group("special_points")
+    for p in branch.special_points:
+        _write_special(group.create_group(p.label), p)
 
 
 def _write_special(g: h5py.Group, p: SpecialPoint) -> None:
@@ -117,8 +127,8 @@ def _write_special(g: h5py.Group, p: SpecialPoint) -> None:
         g[f"vectors/{name}"] = vector
 
 
-def load(path: str | Path, problem: Any = None) -> Branch:
-    """Read a branch; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
+def load(path: str | Path, problem: Any = None) -> Branch | LoadPath:
+    """Read a branch or a load path; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
 
     Raises
     ------
@@ -142,20 +152,32 @@ def load(path: str | Path, problem: Any = None) -> Branch:
                     f"result file '{path}' has format version {version}; this mjcont reads up to "
                     f"{FORMAT_VERSION}: upgrade mjcont"
                 )
-            return _read(f, problem)
+            problem = problem_of(f) if problem is None else problem
+            if f.attrs["kind"] == "load path":
+                from mjcont.pathfiles import read_path
+
+                return read_path(f, problem)
+            return read_branch(f, problem)
         except ResultFileError:
             raise
         except _DAMAGED as error:
             raise ResultFileError(f"result file '{path}' is incomplete or damaged: {error}") from error
 
 
-def _read(f: h5py.File, problem: Any) -> Branch:
-    if problem is None and "model" in f:
-        from mjcont.mechanism import Mechanism
+def problem_of(f: h5py.File) -> Any:
+    """Return the Mechanism of the MJCF in a file, None where there is none."""
+    if "model" not in f:
+        return None
+    from mjcont.mechanism import Mechanism
 
-        problem = Mechanism.from_xml(f["model"].asstr()[()])
-        for name, given in json.loads(f.attrs["declared"]).items():
-            problem.declare(name, *given["paths"], unit=given["unit"], bounds=given["bounds"])
+    problem = Mechanism.from_xml(f["model"].asstr()[()])
+    for name, given in json.loads(f.attrs["declared"]).items():
+        problem.declare(name, *given["paths"], unit=given["unit"], bounds=given["bounds"])
+    return problem
+
+
+def read_branch(f: h5py.Group, problem: Any) -> Branch:
+    """Return the branch in a file or a group of one."""
     columns = {}
     for name in json.loads(f["columns"].attrs["order"]):
         d = f["columns"][name]
