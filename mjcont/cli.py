@@ -17,6 +17,7 @@ from mjcont.errors import MjcontError, ResultFileError
 
 if TYPE_CHECKING:
     from mjcont.branch import Branch, Point
+    from mjcont.pathresults import LoadPath
 
 OK, FAILED, USER_ERROR, INTERRUPTED = 0, 1, 2, 130
 _RESULT_SUFFIXES = (".h5", ".hdf5")
@@ -160,7 +161,7 @@ def _bush(args: argparse.Namespace) -> int:
 
 
 def _export(args: argparse.Namespace) -> int:
-    branch = _load(args.file)
+    branch = _load_branch(args.file)
     out = Path(args.out) if args.out else Path(args.file).with_suffix(".csv")
     say(f"written: {branch.to_csv(out, degrees=args.degrees)}")
     return OK
@@ -182,10 +183,20 @@ def _naming(file: str) -> Iterator[None]:
         raise type(error)(f"'{file}': {error}") from error
 
 
-def _load(path: str) -> Branch:
+def _load(path: str) -> Branch | LoadPath:
     from mjcont.storage import load
 
     return load(path)
+
+
+def _load_branch(path: str) -> Branch:
+    """Read a result that has points of its own to be named."""
+    from mjcont.branch import Branch
+
+    result = _load(path)
+    if not isinstance(result, Branch):
+        raise ResultFileError(f"result file '{path}' holds a load path: this command takes a branch or a locus")
+    return result
 
 
 def _point_of_model(args: argparse.Namespace) -> Point | None:
@@ -209,7 +220,7 @@ def _point_of_result(args: argparse.Namespace) -> Point:
 
     if args.keyframe:
         raise MjcontError("--keyframe goes with a model; for a result file use --label or --at")
-    branch = _load(args.model)
+    branch = _load_branch(args.model)
     if branch.problem is None:
         raise ResultFileError(f"result file '{args.model}' holds no model to view")
     if args.label:

@@ -99,5 +99,5 @@ def total_energy(problem: Any, states: Array, values: Values) -> Array:
     for x in states:
         reason = without_potential(problem, x, values)
         if reason:
-            raise MjcontError(f"{problem.name} has no energy barrier to speak of: {reason}")
+            raise MjcontError(f"{problem.name}: energy barriers are not defined here: {reason}")
     return potential_energy(problem, states, values, loads=True)
