@@ -72,6 +72,9 @@ def without_potential(problem: Any, x: Array, values: Values) -> str:
     """
     if not hasattr(problem, "simulation_model"):
         return "a vector field has no potential energy"
+    loaded = "a stop or a contact carries load there, whose energy is not counted"
+    if problem.active(x, values):
+        return loaded
     compared = False
     for k in range(_SAMPLES):
         beside = problem.retract(x, _BESIDE * problem.state_scale * np.cos(1.0 + k + np.arange(problem.n)))
@@ -85,7 +88,7 @@ def without_potential(problem: Any, x: Array, values: Values) -> str:
         if not np.max(np.abs(work + scaled)) <= _AGREES * np.max(np.abs(scaled)):
             return "its loads have no potential: a force that follows the motion, or depends on it, is among them"
         compared = True
-    return "" if compared else "a stop or a contact carries load there, whose energy is not counted"
+    return "" if compared else loaded
 
 
 def total_energy(problem: Any, states: Array, values: Values) -> Array:

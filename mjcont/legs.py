@@ -1,6 +1,6 @@
 """Several parameters that change together, seen as one: a problem in the fraction of the way from one load to the next.
 
-    p(t) = (1 - t) p_0 + t p_1,   df/dt = sum of df/dp_i (p_1 - p_0)_i
+Along a leg p(t) = (1 - t) p_0 + t p_1, so that df/dt is the sum of df/dp_i (p_1 - p_0)_i.
 """
 
 from __future__ import annotations

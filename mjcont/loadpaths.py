@@ -117,7 +117,7 @@ def _vertices(problem: Any, parameter: Any, path: Any, start: Any) -> list[dict[
         raise ParameterError("a path in several parameters is a list of dicts, such as [{'F': 0}, {'F': 3, 'G': 1}]")
     names = list(dict.fromkeys(n for r in rows for n in r))
     known = start.parameters if isinstance(start, Point) else (start or {})
-    current = {n: problem.values({k: v for k, v in known.items() if k == n})[n] for n in names}
+    current = {n: float(known.get(n, problem.parameter(n).value)) for n in names}
     found: list[dict[str, float]] = []
     for row in rows:
         current = {**current, **{n: float(v) for n, v in row.items()}}
@@ -217,7 +217,8 @@ class _Follower:
             problem, name, low, high = Leg(self.problem, values, target), FRACTION, 0.0, 1.0
             values = {**values, FRACTION: 0.0}
         forward = 1 if high > low else -1
-        system = System(problem, values, [Free(name, *sorted((low, high)), problem.parameter(name).unit)])
+        free = Free(name, min(low, high), max(low, high), problem.parameter(name).unit)
+        system = System(problem, values, [free])
         detectors = equilibrium_detectors(system, self.settings, [], {})
         walker = Walker(system, self.settings, detectors, _unstable(system, forward), frozenset({"LP", "HB", "BP"}))
         traces = run_directions(walker, at.state, system.start_y(), (float(forward),), None)

@@ -7,8 +7,9 @@ descents ends at the rest; the descents are followed to where they end (`numeric
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,8 @@ _ASIDE = 1e-2
 _SAME = 1e-4
 _EQUAL = 1e-9
 _STARTS = 100
+# so many of the lowest passes found by a search are followed
+_PASSES = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +67,8 @@ class BarrierCurve:
     Attributes
     ----------
     name, unit : the parameter.
-    values, energy : (m,) its values, and the barriers in J.
+    values, energy : (m,) its values, and the barriers in J, in order along the branch.
+    rows : (m,) rows of the branch that they belong to: the stable ones and the folds.
     barriers : one a value.
     """
 
@@ -72,6 +76,7 @@ class BarrierCurve:
     unit: str
     values: Array
     energy: Array
+    rows: Array
     barriers: Sequence[Barrier] = field(repr=False)
 
     def plot(self, ax: Any = None) -> Any:
@@ -161,12 +166,12 @@ def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: boo
     rows = [i for i in range(len(branch)) if branch.stability[i] == "stable" or labels[i].startswith("LP")]
     if not any(branch.stability[i] == "stable" for i in rows):
         raise MjcontError("nothing on the branch is stable")
-    order = np.argsort(branch[name][rows], kind="stable")
-    rests = [branch.row(rows[i]) for i in order]
-    folds = [labels[rows[i]].startswith("LP") for i in order]
+    rests = [branch.row(i) for i in rows]
+    folds = [labels[i].startswith("LP") for i in rows]
     barriers = _along(branch, rests, folds, _listed(saddles), search)
     energy = np.array([b.energy for b in barriers])
-    return BarrierCurve(name, branch.unit(name), np.array([p[name] for p in rests]), energy, tuple(barriers))
+    values = np.array([p[name] for p in rests])
+    return BarrierCurve(name, branch.unit(name), values, energy, np.array(rows), tuple(barriers))
 
 
 def barrier_map(point: Point, grid: Mapping[str, Any], *, search: bool = True) -> BarrierMap:
@@ -180,7 +185,8 @@ def barrier_map(point: Point, grid: Mapping[str, Any], *, search: bool = True) -
         A stable equilibrium; its second parameter is followed to the values of the grid.
     grid : mapping of two parameters to values
     search : bool
-        Whether passes are also searched for beyond the branches of the rest, as in `barrier_along`.
+        Whether the lowest passes from the point itself are searched for and followed, too. A pass that is neither on
+        these nor on the branches of the rest is missed.
 
     Raises
     ------
@@ -195,6 +201,8 @@ def barrier_map(point: Point, grid: Mapping[str, Any], *, search: bool = True) -
     problem = _problem(point)
     bounds = min(ys[0], point[y]), max(ys[-1], point[y])
     across = continue_equilibria(problem, y, bounds, point)
+    passes = _lowest(problem, point) if search else []
+    passages = [continue_equilibria(problem, y, bounds, p) for p in passes]
     energy = np.full((len(ys), len(xs)), math.nan)
     units = (problem.parameter(x).unit, problem.parameter(y).unit)
     for j, value in enumerate(ys):
@@ -205,7 +213,9 @@ def barrier_map(point: Point, grid: Mapping[str, Any], *, search: bool = True) -
         line = continue_equilibria(problem, x, (min(low, xs[0]), max(high, xs[-1])), rest)
         found = [(i, _rest_at(line, x, float(v))) for i, v in enumerate(xs)]
         rests = [(i, p) for i, p in found if p is not None]
-        barriers = _along(line, [p for _, p in rests], [False] * len(rests), [], search)
+        others = [p for b in passages for p in b.at(**{y: float(value)}) if p.n_unstable == 1]
+        lines = [continue_equilibria(problem, x, line.free[x], p) for p in others]
+        barriers = _along(line, [p for _, p in rests], [False] * len(rests), lines, False)
         for (i, _), b in zip(rests, barriers, strict=True):
             energy[j, i] = b.energy
     return BarrierMap((x, y), units, xs, ys, energy)
@@ -247,8 +257,8 @@ def _along(
     total_energy(problem, np.array([rests[0].state, rests[-1].state]), rests[0].parameters)
     known: list[Any] = [branch, *saddles]
     if search:
-        for rest in dict.fromkeys((0, len(rests) // 2, len(rests) - 1)):
-            known += _further(problem, branch, rests[rest], known)
+        for i in dict.fromkeys((0, len(rests) // 2, len(rests) - 1)):
+            known += _further(problem, branch, rests[i], known)
     found = []
     for rest, fold in zip(rests, folds, strict=True):
         if fold:
@@ -259,14 +269,20 @@ def _along(
 
 
 def _further(problem: Any, branch: Branch, rest: Point, known: Sequence[Any]) -> list[Branch]:
-    """Return branches through the passes at a rest's load that are on none of the known ones."""
+    """Return branches through the lowest passes from a rest that are on none of the known ones."""
     found: list[Branch] = []
     (name,) = branch.free
-    for p in _candidates(problem, rest, None):
+    for p in _lowest(problem, rest):
         there = _candidates(problem, rest, [*known, *found])
         if not any(_same(problem, p.state, q.state, rest.parameters) for q in there):
             found.append(continue_equilibria(problem, name, branch.free[name], p))
     return found
+
+
+def _lowest(problem: Any, rest: Point) -> list[Point]:
+    """Return the lowest passes that lead from a rest elsewhere, found by a search over all equilibria."""
+    barriers = _barriers(problem, rest, _candidates(problem, rest, None))
+    return [b.saddle for b in islice(barriers, _PASSES) if b.saddle is not None]
 
 
 def _candidates(problem: Any, rest: Point, saddles: Saddles | None) -> list[Point]:
@@ -298,24 +314,25 @@ def _same_load(given: Values, wanted: Values) -> None:
 
 def _barrier(problem: Any, rest: Point, passes: Sequence[Point]) -> Barrier:
     """Return the barrier over the lowest pass from which a descent ends at the rest."""
-    values = rest.parameters
+    return next(_barriers(problem, rest, passes), Barrier(math.inf, rest, None, None, len(passes), "no pass is known"))
+
+
+def _barriers(problem: Any, rest: Point, passes: Sequence[Point]) -> Iterator[Barrier]:
+    """Yield the barriers over the passes that lead from the rest elsewhere, from the lowest up."""
     if not passes:
-        return Barrier(math.inf, rest, None, None, 0, "no pass is known")
+        return
+    values = rest.parameters
     states = np.array([rest.state, *(p.state for p in passes)])
     energies = potential_energy(problem, states, values, loads=True)
     heights = energies[1:] - energies[0]
-    tried = 0
-    for i in np.argsort(heights):
-        if heights[i] < 0.0:
-            continue
-        tried += 1
+    order = [i for i in np.argsort(heights) if heights[i] > 0.0]
+    for tried, i in enumerate(order, 1):
         ends = _descents(problem, passes[i], rest)
         back = [_same(problem, e, rest.state, values) for e in ends]
         if any(back) and not _same(problem, ends[0], ends[1]):
             beyond = ends[1] if back[0] else ends[0]
-            sentence = "its descents end at the rest, a full turn apart" if all(back) else "one descent ends at the rest"
-            return Barrier(float(heights[i]), rest, passes[i], beyond, tried, sentence)
-    return Barrier(math.inf, rest, None, None, tried, f"none of {tried} passes leads from the rest elsewhere")
+            sentence = "its descents end at the rest" + (", full turns apart" if all(back) else " and elsewhere")
+            yield Barrier(float(heights[i]), rest, passes[i], beyond, tried, sentence)
 
 
 def _descents(problem: Any, saddle: Point, rest: Point) -> tuple[Array, Array]:

@@ -1,4 +1,6 @@
-"""Load paths in HDF5 files. Layout (format version 1), beside the file's attributes::
+"""Load paths in HDF5 files.
+
+Layout (format version 1)::
 
     /                 attributes: format, format_version, kind "load path", name, vertices (JSON), status, message
     /model            the MJCF text

@@ -59,13 +59,16 @@ def axis_label(name: str, unit: str, degrees: bool = True) -> str:
 
 
 def draw_barriers(curve: BarrierCurve, ax: Axes | None = None) -> Axes:
-    """Draw energy barriers along a parameter."""
+    """Draw energy barriers along a parameter, each stable piece of the branch a line."""
     from mjcont.plotting import COLORS, new_figure
 
     if ax is None:
         _, ax = new_figure()
-    angle = curve.unit == "rad"
-    ax.plot(np.degrees(curve.values) if angle else curve.values, curve.energy, color=COLORS[0], linewidth=1.8)
+    values = np.degrees(curve.values) if curve.unit == "rad" else curve.values
+    energy = np.where(np.isfinite(curve.energy), curve.energy, np.nan)
+    apart = np.flatnonzero(np.diff(curve.rows) > 1) + 1
+    for i, run in enumerate(np.split(np.arange(len(values)), apart)):
+        ax.plot(values[run], energy[run], color=COLORS[i % len(COLORS)], linewidth=1.8)
     ax.set(xlabel=axis_label(curve.name, curve.unit), ylabel="energy barrier [J]")
     ax.set_ylim(bottom=0.0)
     return ax
