@@ -19,8 +19,9 @@ from mjcont.paths import is_bush
 from mjcont.quantities import Observable
 
 _BESIDE = 1e-3
-_STEP = 1e-5
+_STEP = 1e-6
 _AGREES = 1e-5
+_ROUNDING = 1e-8
 _SAMPLES = 3
 
 
@@ -85,7 +86,8 @@ def without_potential(problem: Any, x: Array, values: Values) -> str:
         energies = potential_energy(problem, np.array([problem.retract(beside, s) for s in steps]), values, loads=True)
         work = (energies[: problem.n] - energies[problem.n :]) / (2.0 * _STEP)
         scaled = f * problem.state_scale
-        if not np.max(np.abs(work + scaled)) <= _AGREES * np.max(np.abs(scaled)):
+        floor = _ROUNDING * float(np.max(np.abs(energies)))
+        if not np.max(np.abs(work + scaled)) <= _AGREES * np.max(np.abs(scaled)) + floor:
             return "its loads have no potential: a force that follows the motion, or depends on it, is among them"
         compared = True
     return "" if compared else loaded
