@@ -99,7 +99,7 @@ class _FieldMotion:
     """Integration of u' = f(u, p) over intervals that grow."""
 
     def __init__(self, problem: Any, x: Array, values: Values) -> None:
-        self._problem, self._values = problem, values
+        self._problem, self._values, self._limit = problem, values, _limit(problem, x)
         rates = np.abs(make_point(problem, x, values).eigenvalues)
         self._span = 1.0 / max(float(rates.max()), 1e-9)
         self.x, self.v, self.time = x.copy(), np.zeros(0), 0.0
@@ -107,12 +107,18 @@ class _FieldMotion:
     def advance(self) -> tuple[Array, float]:
         """Go on for an interval; return its states and its largest scaled speed."""
         problem, values = self._problem, self._values
-        run = solve_ivp(
-            lambda t, u: problem.residual(u, values), (0.0, self._span), self.x, "LSODA", rtol=1e-8,
-            atol=1e-10 * problem.state_scale,
-        )
+
+        def room(t: float, u: Array) -> float:
+            return 2.0 * self._limit - float(np.abs(u / problem.state_scale).max())
+
+        room.terminal = True  # type: ignore[attr-defined]  # a solution may run to infinity in finite time
+        with np.errstate(all="ignore"):
+            run = solve_ivp(
+                lambda t, u: problem.residual(u, values), (0.0, self._span), self.x, "LSODA", rtol=1e-8,
+                atol=1e-10 * problem.state_scale, events=room,
+            )
         states = run.y.T if run.success else np.full((1, problem.n), np.nan)
-        self.x, self.time = states[-1].copy(), self.time + self._span
+        self.x, self.time = states[-1].copy(), self.time + float(run.t[-1])
         self._span *= _GROWTH
         speeds = np.array([problem.residual(u, values) for u in states]) / problem.state_scale
         return states, float(np.abs(speeds).max())
@@ -138,7 +144,7 @@ def escape(
     motion = (_MujocoMotion if hasattr(problem, "simulation_model") else _FieldMotion)(problem, x, values)
     kept, peak, point = [x[None]], 0.0, None
     status, message = "no rest", ""
-    limit = _BEYOND * max(1.0, float(np.abs(x[: problem.n] / problem.state_scale).max()))
+    limit = _limit(problem, x)
     try:
         while motion.time < max_time:
             states, speed = motion.advance()
@@ -177,6 +183,11 @@ def resting(problem: Any, x: Array, v: Array, values: Values, left: Array) -> Po
     slowest = float(rates[rates > 1e-9 * rates.max()].min(initial=np.inf))
     speed = float(np.abs(v / problem.state_scale).max(initial=0.0)) if len(v) else 0.0
     return point if _apart(problem, c.x, x) + speed / slowest < _AMPLITUDE else None
+
+
+def _limit(problem: Any, x: Array) -> float:
+    """Return the scaled coordinate beyond which a motion that begins at x counts as diverging."""
+    return _BEYOND * max(1.0, float(np.abs(x[: problem.n] / problem.state_scale).max()))
 
 
 def _apart(problem: Any, a: Array, b: Array) -> float:

@@ -108,7 +108,7 @@ def _vertices(problem: Any, parameter: Any, path: Any, start: Any) -> list[dict[
     if isinstance(parameter, str):
         if path is None:
             raise ParameterError(f"load_path needs the values of {parameter} to follow, such as [0, 30, 0]")
-        rows: list[Mapping[str, float]] = [{parameter: v} for v in np.atleast_1d(path)]
+        rows: list[Mapping[str, float]] = [{parameter: v} for v in (path if np.ndim(path) else [path])]
     else:
         if path is not None:
             raise ParameterError("give a parameter's name and its values, or a list of dicts")
@@ -120,7 +120,10 @@ def _vertices(problem: Any, parameter: Any, path: Any, start: Any) -> list[dict[
     current = {n: float(known.get(n, problem.parameter(n).value)) for n in names}
     found: list[dict[str, float]] = []
     for row in rows:
-        current = {**current, **{n: float(v) for n, v in row.items()}}
+        try:
+            current = {**current, **{n: float(v) for n, v in row.items()}}
+        except (TypeError, ValueError) as error:
+            raise ParameterError(f"the loads of a path must be numbers, got {dict(row)}") from error
         problem.values(current)
         found.append(current)
     if len(found) < 2 or all(v == found[0] for v in found):

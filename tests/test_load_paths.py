@@ -189,6 +189,13 @@ def test_a_rest_lost_to_an_oscillation_ends_the_path_at_the_hopf_point():
     assert "oscillation" in path.message
 
 
+def test_a_motion_that_runs_to_infinity_in_finite_time_ends_the_path_as_diverged():
+    field = mc.VectorField(lambda u, p: [p["a"] + u[0] ** 2], [-1.0], {"a": -1.0})
+    path = mc.load_path(field, "a", [-1.0, 1.0])
+    assert path.status == "diverged"
+    assert path.final["a"] == pytest.approx(0.0, abs=1e-10)
+
+
 # -- files, pictures, messages ----------------------------------------------------------------------------------
 
 
@@ -222,6 +229,7 @@ def test_the_diagram_of_a_path_has_an_arrow_for_each_segment_and_jump(branch, cy
     ("arguments", "message"),
     [
         (("F", [50.0]), "at least two different loads"),
+        (("F", ["x", 50.0]), "must be numbers"),
         (("F", None), "needs the values of F"),
         (("G", [0.0, 1.0]), "unknown parameter 'G'"),
         (("F", [50.0, math.nan]), "finite number"),
