@@ -47,7 +47,21 @@ def poses() -> None:
     save_figure(mc.draw_poses(gear, shown, cols=4), OUT / "nose_gear_poses.png", dpi=110)
 
 
+def hysteresis() -> None:
+    """Draw the overcentre mechanism's hysteresis loop with its jumps, and the energy barriers of its rests."""
+    mechanism = mc.Mechanism.from_xml("overcentre")
+    branch = mc.continue_equilibria(mechanism, "F", bounds=(0, 40), start={"F": 40.0}, ds_max=0.02)
+    figure, (left, right) = new_figure(1, 2, (8.4, 3.6))
+    mc.plot(branch, mc.load_path(branch, "F", [40, 0, 40]), x="F", y="theta_1", ax=left)
+    mc.barrier_along(branch, search=False).plot(right)
+    set_panel_title(left, "hysteresis loop")
+    set_panel_title(right, "energy barrier between the folds")
+    place_labels(left)
+    save_figure(figure, OUT / "hysteresis.png", dpi=110)
+
+
 if __name__ == "__main__":
     OUT.mkdir(exist_ok=True)
+    hysteresis()
     overcentre()
     poses()

@@ -39,9 +39,12 @@ if TYPE_CHECKING:
     from mjcont.extension import extend
     from mjcont.found import Equilibria, Equilibrium
     from mjcont.histories import History, simulate, simulate_many
+    from mjcont.loadpaths import load_path
     from mjcont.loci import continue_special
+    from mjcont.margins import Barrier, BarrierCurve, BarrierMap, barrier_along, barrier_map, energy_barrier
     from mjcont.mechanism import Mechanism
     from mjcont.numerics.settings import Settings
+    from mjcont.pathresults import Jump, LoadPath, Segment
     from mjcont.plotting import plot
     from mjcont.search import find_equilibria
     from mjcont.stiffness import StiffnessStudy, stiffness_study
@@ -58,9 +61,12 @@ _HOMES = {
     "mjcont.drawing": ("add_poses", "draw", "draw_poses"),
     "mjcont.equalities": ("ConstraintStiffness", "constraint_stiffness"),
     "mjcont.extension": ("extend",),
+    "mjcont.loadpaths": ("load_path",),
     "mjcont.loci": ("continue_special",),
+    "mjcont.margins": ("Barrier", "BarrierCurve", "BarrierMap", "barrier_along", "barrier_map", "energy_barrier"),
     "mjcont.mechanism": ("Mechanism",),
     "mjcont.numerics.settings": ("Settings",),
+    "mjcont.pathresults": ("Jump", "LoadPath", "Segment"),
     "mjcont.plotting": ("plot",),
     "mjcont.found": ("Equilibria", "Equilibrium"),
     "mjcont.histories": ("History", "simulate", "simulate_many"),
@@ -78,6 +84,9 @@ except _metadata.PackageNotFoundError:
     __version__ = "0.0.0"
 
 __all__ = [
+    "Barrier",
+    "BarrierCurve",
+    "BarrierMap",
     "BoundsError",
     "Branch",
     "Certificate",
@@ -87,6 +96,8 @@ __all__ = [
     "Equilibria",
     "Equilibrium",
     "History",
+    "Jump",
+    "LoadPath",
     "Mechanism",
     "MjcontError",
     "ModelError",
@@ -95,6 +106,7 @@ __all__ = [
     "ParameterError",
     "Point",
     "ResultFileError",
+    "Segment",
     "Settings",
     "SpecialPoint",
     "StartError",
@@ -103,6 +115,8 @@ __all__ = [
     "VectorField",
     "add_bushes",
     "add_poses",
+    "barrier_along",
+    "barrier_map",
     "bifurcation_diagram",
     "bushed_xml",
     "constraint_stiffness",
@@ -110,11 +124,13 @@ __all__ = [
     "continue_special",
     "draw",
     "draw_poses",
+    "energy_barrier",
     "extend",
     "find_equilibria",
     "find_equilibrium",
     "iterate_equilibria",
     "load",
+    "load_path",
     "load_study",
     "plot",
     "run_study",

@@ -160,7 +160,7 @@ def _bush(args: argparse.Namespace) -> int:
 
 
 def _export(args: argparse.Namespace) -> int:
-    branch = _load(args.file)
+    branch = _load_branch(args.file)
     out = Path(args.out) if args.out else Path(args.file).with_suffix(".csv")
     say(f"written: {branch.to_csv(out, degrees=args.degrees)}")
     return OK
@@ -201,11 +201,13 @@ def _load(path: str) -> Any:
 
 
 def _load_branch(path: str) -> Branch:
+    """Read a result that has points of its own to be named."""
     from mjcont.branch import Branch
 
     result = _load(path)
     if not isinstance(result, Branch):
-        raise ResultFileError(f"'{path}' holds a time history: inspect and export take it, this command takes branches")
+        what = "a time history: inspect and export take it" if hasattr(result, "velocities") else "a load path"
+        raise ResultFileError(f"'{path}' holds {what}, this command takes a branch or a locus")
     return result
 
 

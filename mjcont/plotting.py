@@ -15,6 +15,8 @@ import numpy as np
 from mjcont.branch import Branch, SpecialPoint, show
 from mjcont.errors import MjcontError
 from mjcont.numerics.problem import Array
+from mjcont.pathplots import axis_label, draw_path
+from mjcont.pathresults import LoadPath
 from mjcont.storage import write_atomically
 
 if TYPE_CHECKING:
@@ -78,7 +80,7 @@ def set_panel_title(ax: Axes, text: str) -> None:
 
 
 def plot(
-    *branches: Branch,
+    *curves: Branch | LoadPath,
     x: str,
     y: str,
     ax: Axes | None = None,
@@ -90,9 +92,11 @@ def plot(
 ) -> Axes:
     """Draw branches and loci: solid where stable, dashed where unstable, dotted where marginal; loci solid.
 
+    A load path is a broad line with arrows over them, its jumps are dotted arrows.
+
     Parameters
     ----------
-    *branches : Branch
+    *curves : Branch or LoadPath
     x, y : str
         Columns: parameters or observables.
     ax : matplotlib Axes, optional
@@ -114,7 +118,11 @@ def plot(
     NameLookupError
         If a branch has no such column; the message lists those it has.
     """
-    _check(branches, legend)
+    paths = [c for c in curves if isinstance(c, LoadPath)]
+    branches = [c for c in curves if not isinstance(c, LoadPath)]
+    _check(branches, legend, bool(paths))
+    for path in paths:
+        _ = path[x], path[y]
     # Everything is read before anything is drawn, so that an unknown column leaves the axes as they were.
     data = [(_column(b, x, degrees), _column(b, y, degrees), _breaks(b, (x, y)) if wrap else ()) for b in branches]
     if ax is None:
@@ -128,8 +136,11 @@ def plot(
         ax.plot([], [], color=color, label=names[i] or "_branch")
         draw_curve(ax, xs, ys, pieces(branch), color=color, breaks=breaks)
         draw_points(ax, xs, ys, branch.special_points, labels=labels, color=color)
-    ax.set_xlabel(_axis_label(branches, x, degrees))
-    ax.set_ylabel(_axis_label(branches, y, degrees))
+    for i, path in enumerate(paths):
+        color = (colors or COLORS[1:])[(len(branches) * bool(colors) + i) % len(colors or COLORS[1:])]
+        draw_path(ax, path, x, y, degrees=degrees, color=color, labels=labels is not False and not branches)
+    ax.set_xlabel(_axis_label(curves, x, degrees))
+    ax.set_ylabel(_axis_label(curves, y, degrees))
     if legend is True:
         _explain_styles(ax, branches)
     if any(not str(line.get_label()).startswith("_") for line in ax.lines) and legend is not False:
@@ -311,8 +322,8 @@ def save_figure(figure: Figure, path: str | Path, *, dpi: float = 200.0) -> Path
     return write_atomically(path, write)
 
 
-def _check(branches: Sequence[Any], legend: Sequence[str] | bool | None) -> None:
-    if not branches:
+def _check(branches: Sequence[Any], legend: Sequence[str] | bool | None, paths: bool = False) -> None:
+    if not branches and not paths:
         raise MjcontError("plot needs at least one branch")
     for b in branches:
         if not isinstance(b, Branch):
@@ -341,10 +352,9 @@ def _breaks(branch: Branch, names: Iterable[str]) -> set[int]:
     return {int(i) for a in angles for i in np.flatnonzero(np.abs(np.diff(a)) > np.pi)}
 
 
-def _axis_label(branches: Sequence[Branch], name: str, degrees: bool) -> str:
-    unit = next((u for u in (_unit(b, name) for b in branches) if u not in ("", "1")), "")
-    unit = "deg" if degrees and unit == "rad" else unit.replace("*", " ")
-    return f"{name} [{unit}]" if unit else name
+def _axis_label(curves: Sequence[Branch | LoadPath], name: str, degrees: bool) -> str:
+    units = (c.unit(name) if isinstance(c, LoadPath) else _unit(c, name) for c in curves)
+    return axis_label(name, next((u for u in units if u not in ("", "1")), ""), degrees)
 
 
 def _names(branches: Sequence[Branch], legend: Sequence[str] | bool | None) -> list[str]:

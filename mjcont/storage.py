@@ -13,6 +13,8 @@ Layout of an HDF5 file (format version 1)::
     /residuals            (N,) float64, scaled
     /fixed                attributes: the other parameters' values
     /special_points/LABEL attributes: kind, index, tolerance, converged, note, coefficients (JSON); vectors/NAME
+
+A load path (kind "load path") holds such a group for each of its segments: see `pathfiles`.
 """
 
 from __future__ import annotations
@@ -25,13 +27,16 @@ import tempfile
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
 
 from mjcont.branch import Branch, Column, Point, SpecialPoint
 from mjcont.errors import MjcontError, ModelWarning, ResultFileError
+
+if TYPE_CHECKING:
+    pass
 
 FORMAT_VERSION = 1
 # What h5py, json and our own reading raise on files with parts missing or overwritten.
@@ -66,43 +71,48 @@ def save(branch: Branch, path: str | Path) -> Path:
 
 def _write(branch: Branch, path: Path) -> None:
     with h5py.File(path, "w") as f:
-        f.attrs.update(
-            format="mjcont",
-            format_version=FORMAT_VERSION,
-            kind=branch.kind,
-            name=branch.name,
-            start=branch.start,
-            start_index=branch.start_index,
-            settings=branch.settings_json(),
-            free=json.dumps(branch.free),
-            ends=json.dumps(list(branch.ends)),
-            neutral_saddles=json.dumps(list(branch.neutral_saddles)),
-            notes=json.dumps(list(branch.notes)),
-        )
-        write_common(f, branch)
-        f["states"] = branch.states
-        f["states"].attrs.update(
-            names=json.dumps([n for n, _ in branch.state_labels]), units=json.dumps([u for _, u in branch.state_labels])
-        )
-        f["eigenvalues/real"], f["eigenvalues/imag"] = branch.eigenvalues.real, branch.eigenvalues.imag
-        f["stability"] = np.array([_CODES[s] for s in branch.stability], dtype=np.int8)
-        f["stability"].attrs["meaning"] = "1 stable, 0 marginal, -1 unstable"
-        f["n_unstable"] = branch.n_unstable.astype(np.int32)
-        f["residuals"] = branch.residuals
-        f.create_group("fixed").attrs.update(dict(branch.fixed))
-        f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
-        if branch.certificate is not None:
-            f.attrs["certificate"] = branch.certificate.to_json()
-        group = f.create_group("special_points")
-        for p in branch.special_points:
-            _write_special(group.create_group(p.label), p)
+        write_branch(branch, f)
 
 
-def write_common(f: h5py.File, result: Any) -> None:
-    """Write what every result has: its columns, its model and where it comes from."""
+def write_branch(branch: Branch, f: h5py.Group, *, model: bool = True) -> None:
+    """Write a branch into a file or a group of one, with its model unless the file has that elsewhere."""
+    f.attrs.update(
+        format="mjcont",
+        format_version=FORMAT_VERSION,
+        kind=branch.kind,
+        name=branch.name,
+        start=branch.start,
+        start_index=branch.start_index,
+        settings=branch.settings_json(),
+        free=json.dumps(branch.free),
+        ends=json.dumps(list(branch.ends)),
+        neutral_saddles=json.dumps(list(branch.neutral_saddles)),
+        notes=json.dumps(list(branch.notes)),
+    )
+    write_common(f, branch, model=model)
+    f["states"] = branch.states
+    f["states"].attrs.update(
+        names=json.dumps([n for n, _ in branch.state_labels]), units=json.dumps([u for _, u in branch.state_labels])
+    )
+    f["eigenvalues/real"], f["eigenvalues/imag"] = branch.eigenvalues.real, branch.eigenvalues.imag
+    f["stability"] = np.array([_CODES[s] for s in branch.stability], dtype=np.int8)
+    f["stability"].attrs["meaning"] = "1 stable, 0 marginal, -1 unstable"
+    f["n_unstable"] = branch.n_unstable.astype(np.int32)
+    f["residuals"] = branch.residuals
+    f.create_group("fixed").attrs.update(dict(branch.fixed))
+    f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
+    if branch.certificate is not None:
+        f.attrs["certificate"] = branch.certificate.to_json()
+    group = f.create_group("special_points")
+    for p in branch.special_points:
+        _write_special(group.create_group(p.label), p)
+
+
+def write_common(f: h5py.Group, result: Any, *, model: bool = True) -> None:
+    """Write what every result has: its columns, where it comes from, its model unless the file has that elsewhere."""
     f.attrs.update({f"provenance_{k}": v for k, v in result.provenance.items()})
     mjcf = getattr(result.problem, "mjcf", None)
-    if mjcf is not None:
+    if mjcf is not None and model:
         f["model"] = mjcf
     f.attrs["declared"] = json.dumps(getattr(result.problem, "declared", {}))
     for c in result.columns.values():
@@ -125,7 +135,7 @@ def _write_special(g: h5py.Group, p: SpecialPoint) -> None:
 
 
 def load(path: str | Path, problem: Any = None) -> Any:
-    """Read a Branch or a History; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
+    """Read a result; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
 
     Raises
     ------
@@ -153,7 +163,11 @@ def load(path: str | Path, problem: Any = None) -> Any:
                 from mjcont.historyfiles import read
 
                 return read(f, problem)
-            return _read(f, problem)
+            if f.attrs["kind"] == "load path":
+                from mjcont.pathfiles import read_path
+
+                return read_path(f, read_problem(f, problem))
+            return read_branch(f, read_problem(f, problem))
         except ResultFileError:
             raise
         except _DAMAGED as error:
@@ -178,7 +192,7 @@ def read_problem(f: h5py.File, problem: Any) -> Any:
     return problem
 
 
-def read_columns(f: h5py.File) -> dict[str, Column]:
+def read_columns(f: h5py.Group) -> dict[str, Column]:
     """Return the columns in their order."""
     found = {}
     for name in json.loads(f["columns"].attrs["order"]):
@@ -187,8 +201,9 @@ def read_columns(f: h5py.File) -> dict[str, Column]:
     return found
 
 
-def _read(f: h5py.File, problem: Any) -> Branch:
-    problem, columns = read_problem(f, problem), read_columns(f)
+def read_branch(f: h5py.Group, problem: Any) -> Branch:
+    """Return the branch in a file or a group of one."""
+    columns = read_columns(f)
     words = {v: k for k, v in _CODES.items()}
     labels = list(zip(json.loads(f["states"].attrs["names"]), json.loads(f["states"].attrs["units"]), strict=True))
     branch = Branch(
