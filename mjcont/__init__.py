@@ -28,15 +28,19 @@ from mjcont.errors import (
 )
 
 if TYPE_CHECKING:
+    from mjcont.adjoint import Sensitivities, sensitivities
     from mjcont.branch import Branch, Column, Point, SpecialPoint
     from mjcont.bushes import add_bushes, bushed_xml
     from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
+    from mjcont.critical import FollowedPoint, follow_point
     from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
     from mjcont.drawing import add_poses, draw, draw_poses
     from mjcont.extension import extend
+    from mjcont.extremes import WorstCase, worst_case
     from mjcont.found import Equilibria, Equilibrium
     from mjcont.histories import History, simulate
     from mjcont.loci import continue_special
+    from mjcont.maps import SpecialMap, special_map
     from mjcont.mechanism import Mechanism
     from mjcont.numerics.settings import Settings
     from mjcont.plotting import plot
@@ -47,13 +51,17 @@ if TYPE_CHECKING:
     from mjcont.vectorfield import VectorField
 
 _HOMES = {
+    "mjcont.adjoint": ("Sensitivities", "sensitivities"),
     "mjcont.branch": ("Branch", "Column", "Point", "SpecialPoint"),
     "mjcont.bushes": ("add_bushes", "bushed_xml"),
     "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
+    "mjcont.critical": ("FollowedPoint", "follow_point"),
     "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
     "mjcont.drawing": ("add_poses", "draw", "draw_poses"),
     "mjcont.extension": ("extend",),
+    "mjcont.extremes": ("WorstCase", "worst_case"),
     "mjcont.loci": ("continue_special",),
+    "mjcont.maps": ("SpecialMap", "special_map"),
     "mjcont.mechanism": ("Mechanism",),
     "mjcont.numerics.settings": ("Settings",),
     "mjcont.plotting": ("plot",),
@@ -79,6 +87,7 @@ __all__ = [
     "Diagram",
     "Equilibria",
     "Equilibrium",
+    "FollowedPoint",
     "History",
     "Mechanism",
     "MjcontError",
@@ -87,12 +96,15 @@ __all__ = [
     "ParameterError",
     "Point",
     "ResultFileError",
+    "Sensitivities",
     "Settings",
+    "SpecialMap",
     "SpecialPoint",
     "StartError",
     "StiffnessStudy",
     "StudyError",
     "VectorField",
+    "WorstCase",
     "add_bushes",
     "add_poses",
     "bifurcation_diagram",
@@ -104,14 +116,18 @@ __all__ = [
     "extend",
     "find_equilibria",
     "find_equilibrium",
+    "follow_point",
     "iterate_equilibria",
     "load",
     "load_study",
     "plot",
     "run_study",
+    "sensitivities",
     "simulate",
+    "special_map",
     "stiffness_study",
     "switch_branches",
+    "worst_case",
 ]
 
 
