@@ -135,7 +135,7 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
     return replace(
         like, parameters=p.parameters, observables=p.observables, state=p.state, eigenvalues=p.eigenvalues,
         n_unstable=p.n_unstable, stability="marginal" if kind in ("LP", "HB", "BP") else p.stability,
-        tolerance=c.step, coefficients=coefficients, vectors=vectors,
+        tolerance=c.step, coefficients=coefficients, vectors=vectors, units=p.units,
     )
 
 

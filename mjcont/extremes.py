@@ -12,15 +12,16 @@ import numpy as np
 
 from mjcont.adjoint import sensitivities
 from mjcont.branch import SpecialPoint, show
+from mjcont.collect import units as unit_of
 from mjcont.critical import check_targets, follow_point
 from mjcont.errors import BoundsError, ParameterError, unknown_name
 from mjcont.maps import SpecialMap, special_map
-from mjcont.numerics.box import Minimum, minimise, projected
+from mjcont.numerics.box import Minimum, minimise
 from mjcont.numerics.problem import Array
 
 _TOL = 1e-7
 _CORNERS = 4  # parameters up to which every corner of the box is a start
-_SAME = 1e-9
+_SAME = 1e-7
 _AT_BOUND = 1e-9
 
 
@@ -66,7 +67,7 @@ class WorstCase:
 
     def __str__(self) -> str:
         """Return the extreme, where it is, and the sentence."""
-        units = self.point.units
+        units = unit_of(self.point.problem)
         word = "largest" if self.maximise else "smallest"
         where = ", ".join(
             f"{n} = {show(v, units[n], 6)}" + (f" ({self.active[n]})" if n in self.active else "")
@@ -126,7 +127,7 @@ def worst_case(
     if field_ is not None and field_.exists.any():
         top = field_.largest(box.quantity, smallest=not maximise)
         best = min((r.minimum.value for r in found), default=math.inf)
-        if box.sign * top[box.quantity] < best - _SAME * box.size:
+        if box.sign * top[box.quantity] / box.size < best - _SAME:
             box.known.append((box.unit(top.parameters), top))
             again = box.run({n: top[n] for n in ranges}, tol)
             runs.append(again)
@@ -139,12 +140,12 @@ def _result(box: _Box, found: Sequence[_Run], tried: int, grid: SpecialMap | Non
         reason = box.failures[0] if box.failures else "no start was reached"
         return WorstCase(
             box.point, box.quantity, box.point[box.quantity], box.maximise,
-            {n: box.point[n] for n in box.ranges}, {}, math.nan, "not converged",
+            {n: box.point.problem.values(box.point.parameters)[n] for n in box.ranges}, {}, math.nan, "not converged",
             f"nothing in the box was reached: {reason}", box.evaluations, (), (0, tried), grid,
         )
     run = min(found, key=lambda r: r.minimum.value)
     m, values = run.minimum, box.values(run.minimum.u)
-    same = sum(abs(r.minimum.value - m.value) <= 1e-6 * box.size for r in found)
+    same = sum(abs(r.minimum.value - m.value) <= _SAME for r in found)
     active = {}
     for name, u, g in zip(box.ranges, m.u, m.gradient, strict=True):
         if (u <= _AT_BOUND and g > 0) or (u >= 1.0 - _AT_BOUND and g < 0):
@@ -163,7 +164,7 @@ def _result(box: _Box, found: Sequence[_Run], tried: int, grid: SpecialMap | Non
         words.append(_confirmed(box, m.value, grid))
     return WorstCase(
         run.point, box.quantity, run.point[box.quantity], box.maximise, values, active,
-        float(np.abs(projected(m.u, m.gradient)).max()) / box.size, status, "; ".join(words), box.evaluations,
+        m.kkt, status, "; ".join(words), box.evaluations,
         tuple(run.path), (same, tried), grid,
     )
 
@@ -174,9 +175,9 @@ def _confirmed(box: _Box, value: float, grid: SpecialMap) -> str:
     if not there.any():
         return f"a grid of {shape} reached no node"
     top = grid.largest(box.quantity, smallest=not box.maximise)[box.quantity]
-    word = "none better" if box.sign * top >= value - 1e-6 * box.size else "a better one, which no run could keep"
+    word = "none better" if box.sign * top / box.size >= value - _SAME else "a better one, which no run could keep"
     missing = f", {int((~there).sum())} nodes without the point" if not there.all() else ""
-    return f"a grid of {shape} has {word}, {show(top, box.point.units[box.quantity])} at best{missing}"
+    return f"a grid of {shape} has {word}, {show(top, unit_of(box.point.problem)[box.quantity])} at best{missing}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,12 +238,13 @@ class _Box:
         return None
 
     def function(self, u: Array) -> tuple[float, Array] | None:
-        """Return the signed quantity and its gradient in the box's coordinates."""
+        """Return the signed quantity, relative to its size, and its gradient in the box's coordinates."""
         p = self.locate(u)
         if p is None:
             return None
         s = sensitivities(p, list(self.ranges), quantities=self.quantity)
-        return self.sign * p[self.quantity], self.sign * s.derivatives[:, 0] * self.width
+        scale = self.sign / self.size
+        return scale * p[self.quantity], scale * s.derivatives[:, 0] * self.width
 
     def starts(self, given: Sequence[Mapping[str, float]] | None) -> list[Mapping[str, float]]:
         """Return the parameter values to start from, the point's own first."""
@@ -268,11 +270,13 @@ class _Box:
 
         def recorded(u: Array) -> tuple[float, Array] | None:
             found = self.function(u)
-            if found is not None and (not path or found[0] < self.sign * path[-1][self.quantity]):
-                path.append({**self.values(u), self.quantity: self.sign * found[0]})
+            if found is not None:
+                value = self.sign * self.size * found[0]
+                if not path or self.sign * value < self.sign * path[-1][self.quantity]:
+                    path.append({**self.values(u), self.quantity: value})
             return found
 
-        end = minimise(recorded, self.unit(start), tol=tol, scale=self.size)
+        end = minimise(recorded, self.unit(start), tol=tol)
         if end is None:
             return None
         at = self.locate(end.u)

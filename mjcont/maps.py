@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from mjcont.branch import SpecialPoint, show
+from mjcont.collect import units as unit_of
 from mjcont.critical import check_targets, follow_point
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.numerics.problem import Array
@@ -84,7 +85,7 @@ class SpecialMap:
             f"{self.point.label} over {shape} values of {', '.join(self.axes)}: exists at {int(there.sum())} of "
             f"{there.size}; {self.evaluations} evaluations"
         ]
-        units = self.point.units
+        units = unit_of(self.point.problem)
         for name in self.point.free:
             ends = [(word, self.largest(name, smallest=low)) for word, low in (("from", True), ("to", False))]
             lines.append(f"  {name}: " + " ".join(
@@ -122,7 +123,8 @@ def special_map(point: SpecialPoint, grid: Mapping[str, Sequence[float] | Array]
     before = point.problem.evaluations
     shape = tuple(len(a) for a in axes.values())
     points, messages = np.full(shape, None, dtype=object), np.full(shape, "", dtype=object)
-    nearest = tuple(int(np.argmin(np.abs(a - point[name]))) for name, a in axes.items())
+    here = point.problem.values(point.parameters)
+    nearest = tuple(int(np.argmin(np.abs(a - here[name]))) for name, a in axes.items())
     _reach(point, axes, nearest, points, messages)
     front = [nearest] if points[nearest] is not None else []
     while front:

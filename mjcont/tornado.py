@@ -16,6 +16,7 @@ from mjcont.errors import ParameterError
 if TYPE_CHECKING:
     from mjcont.adjoint import Sensitivities
 
+_SEEN = 1e-4  # of the widest bar
 _MORE, _LESS = "#1b4f8a", "#c4541a"
 
 
@@ -102,8 +103,8 @@ def draw_tornado(s: Sensitivities, quantity: str, most: int, ax: Any) -> Any:
     if most < 1:
         raise ParameterError(f"most must be at least 1, got {most}")
     j = s.quantities.index(quantity)
-    moving = [n for n in s.ordered(quantity) if abs(s.changes[s.parameters.index(n), j]) > 0.0]
-    names = moving[:most]
+    size = np.nan_to_num(np.abs(s.changes[:, j]))
+    names = [n for n in s.ordered(quantity) if size[s.parameters.index(n)] > _SEEN * size.max(initial=0.0)][:most]
     unit = "deg" if s.units[quantity] == "rad" else s.units[quantity]
     factor = math.degrees(1.0) if s.units[quantity] == "rad" else 1.0
     axes = ax if ax is not None else new_figure(size=(6.2, 1.3 + 0.27 * max(len(names), 3)))[1]

@@ -17,7 +17,7 @@ so that a parameter costs a few evaluations of f instead of a solution. Other co
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -124,9 +124,9 @@ class _Frozen:
 
     def __init__(self, system: System, local: Local) -> None:
         self.system, self.local = system, local
-        conditions: Sequence[Any] = system.conditions
-        self.fold: Fold | None = next((c for c in conditions if isinstance(c, Fold)), None)
-        self.cusp: FoldCoefficient | None = next((c for c in conditions if isinstance(c, FoldCoefficient)), None)
+        self.conditions = cast(Sequence[Any], system.conditions)
+        self.fold: Fold | None = next((c for c in self.conditions if isinstance(c, Fold)), None)
+        self.cusp: FoldCoefficient | None = next((c for c in self.conditions if isinstance(c, FoldCoefficient)), None)
         self._vectors: Mapping[str, Array] | None = None
 
     @property
@@ -173,7 +173,7 @@ class _Frozen:
         ]
         at, position = n, len(system.free)
         moved = Local(problem, local.x, values, system.names, local.accurate, system.spans)
-        for c in system.conditions:
+        for c in self.conditions:
             aux = y[position : position + len(c.aux)]
             if c is self.fold:
                 out[at] = -self.vectors["w"] @ first[0]
@@ -193,7 +193,7 @@ class _Frozen:
         """Return the conditions' gradients in scaled x, (number of conditions, n)."""
         system, n = self.system, self.system.n
         rows, at, position = np.zeros((system.equations - n, n)), 0, len(system.free)
-        for c in system.conditions:
+        for c in self.conditions:
             aux = y[position : position + len(c.aux)]
             if c is self.fold:
                 rows[at] = -self.vectors["w"] @ self.vectors["form"]

@@ -49,32 +49,31 @@ def projected(u: Array, gradient: Array) -> Array:
 
 
 def minimise(
-    function: Callable[[Array], tuple[float, Array] | None], u: Array, *, tol: float, scale: float, most: int = 60
+    function: Callable[[Array], tuple[float, Array] | None], u: Array, *, tol: float, most: int = 60
 ) -> Minimum | None:
     """Return a local minimum over [0, 1]^d, or None if the function is not defined at the start.
 
     Parameters
     ----------
-    function : u -> (value, gradient), or None where it is not defined.
+    function : u -> (value, gradient), of order one, or None where it is not defined.
     u : (d,) start.
-    tol : largest component of the projected gradient, relative to `scale`, at which to stop.
-    scale : size of the function.
+    tol : largest component of the projected gradient at which to stop.
     most : iterations.
     """
     here = function(u)
     if here is None:
         return None
     value, gradient = here
-    inverse, undefined, failure = np.eye(len(u)) / max(float(np.abs(gradient).max()), _FLAT * scale), False, ""
+    inverse, undefined, failure = np.eye(len(u)) / max(float(np.abs(gradient).max()), _FLAT), False, ""
     for iteration in range(1, most + 1):
         kkt = float(np.abs(projected(u, gradient)).max())
-        if kkt <= tol * scale:
+        if kkt <= tol:
             return Minimum(u, value, gradient, kkt, iteration - 1)
         held = ((u <= 0.0) & (gradient > 0.0)) | ((u >= 1.0) & (gradient < 0.0))
         direction = np.where(held, 0.0, -(np.where(held[:, None] | held[None], 0.0, inverse) @ gradient))
         if not direction @ gradient < 0.0:
-            direction = np.where(held, 0.0, -gradient / max(float(np.abs(gradient).max()), _FLAT * scale))
-        found, undefined = _search(function, u, value, gradient, direction, scale)
+            direction = np.where(held, 0.0, -gradient / max(float(np.abs(gradient).max()), _FLAT))
+        found, undefined = _search(function, u, value, gradient, direction)
         if found is None:
             failure = "the function is not defined where it falls further" if undefined else "no step lowers it further"
             break
@@ -93,7 +92,6 @@ def _search(
     value: float,
     gradient: Array,
     direction: Array,
-    scale: float,
 ) -> tuple[tuple[Array, float, Array] | None, bool]:
     """Return the first point along the projected direction that is low enough, and whether any was undefined."""
     length, undefined = 1.0, False
@@ -102,7 +100,7 @@ def _search(
         there = function(moved)
         if there is None:
             undefined = True
-        elif there[0] <= value + _SUFFICIENT * float(gradient @ (moved - u)) + _FLAT * scale:
+        elif there[0] <= value + _SUFFICIENT * float(gradient @ (moved - u)) + _FLAT:
             return (moved, *there), undefined
         length *= 0.5 if there is None else 0.35
     return None, undefined
