@@ -17,6 +17,7 @@ from mjcont.numerics.problem import Array
 _SUFFICIENT = 1e-4
 _SHORTEST = 1e-6
 _FLAT = 1e-13
+_NEAR = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,10 +70,12 @@ def minimise(
         kkt = float(np.abs(projected(u, gradient)).max())
         if kkt <= tol:
             return Minimum(u, value, gradient, kkt, iteration - 1)
-        held = ((u <= 0.0) & (gradient > 0.0)) | ((u >= 1.0) & (gradient < 0.0))
-        direction = np.where(held, 0.0, -(np.where(held[:, None] | held[None], 0.0, inverse) @ gradient))
+        near = min(_NEAR, kkt)  # bounds this close count as met, or projecting a step could turn it uphill
+        held = ((u <= near) & (gradient > 0.0)) | ((u >= 1.0 - near) & (gradient < 0.0))
+        downhill = -gradient / max(float(np.abs(gradient).max()), _FLAT)
+        direction = np.where(held, downhill, -(np.where(held[:, None] | held[None], 0.0, inverse) @ gradient))
         if not direction @ gradient < 0.0:
-            direction = np.where(held, 0.0, -gradient / max(float(np.abs(gradient).max()), _FLAT))
+            direction = downhill
         found, undefined = _search(function, u, value, gradient, direction)
         if found is None:
             failure = "the function is not defined where it falls further" if undefined else "no step lowers it further"
