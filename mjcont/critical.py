@@ -34,6 +34,7 @@ _AGREE = 0.2
 _CLOSE = 1e-4
 _STEEPER = 3.0
 _EXISTS = 1e-6
+_NEWTON = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,11 +133,24 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
     elif kind != "UZ":
         coefficients, vectors = {k: v for k, v in coefficients.items() if k == "omega"}, {}
     p = make_point(like.problem, c.x, values)
+    own = point_names(like)
+    free = {n: _around(like.problem.parameters[n], b, values[n]) if n in own else b for n, b in like.free.items()}
     return replace(
         like, parameters=p.parameters, observables=p.observables, state=p.state, eigenvalues=p.eigenvalues,
         n_unstable=p.n_unstable, stability="marginal" if kind in ("LP", "HB", "BP") else p.stability,
-        tolerance=c.step, coefficients=coefficients, vectors=vectors, units=p.units,
+        tolerance=c.step, coefficients=coefficients, vectors=vectors, units=p.units, free=free,
     )
+
+
+def _around(parameter: Any, bounds: tuple[float, float], value: float) -> tuple[float, float]:
+    """Return bounds that contain a value with room beside it: those given, or widened to that side."""
+    (low, high), hard = bounds, parameter.hard_bounds
+    room = 0.5 * (high - low)
+    if value < low:
+        low = max(value - room, hard[0])
+    if value > high:
+        high = min(value + room, hard[1])
+    return low, high
 
 
 def check_targets(point: SpecialPoint, targets: Mapping[str, float]) -> dict[str, float]:
@@ -267,7 +281,7 @@ class _Walk:
         tangent, sign = self._tangent(self.system, 0.0, self.x, self.y)
         if not np.all(np.isfinite(tangent)):
             return "stuck", f"{self.like.label} could not be followed: its defining system is singular there"
-        dt = 1.0
+        dt, failed = 1.0, False
         for _ in range(most):
             self.speed = float(np.linalg.norm(tangent))
             self.least = min(self.least, self.speed)
@@ -276,7 +290,7 @@ class _Walk:
                 return self._lost()
             done = self._step(dt, tangent, sign)
             if done is None:
-                dt *= 0.5
+                dt, failed = 0.5 * dt, True
                 continue
             tangent, sign = done
             bound = self._beyond()
@@ -284,7 +298,7 @@ class _Walk:
                 return "at bound", bound
             if self.t >= 1.0 - 1e-12:
                 return "reached", f"{self.like.label} followed to {self._where()}"
-            dt *= 2.0
+            dt, failed = dt if failed else 2.0 * dt, False
         return "stuck", f"{self.like.label} was given up after {most} steps at {self._where()}"
 
     def _step(self, dt: float, tangent: Array, sign: float) -> tuple[Array, float] | None:
@@ -293,7 +307,7 @@ class _Walk:
         system = self.at(t)
         x, y = system.move(self.x, self.y, dt * tangent)
         with np.errstate(all="ignore"):
-            c = solve(system, x, y)
+            c = solve(system, x, y, most=_NEWTON)
             if c.failure or not np.all(np.isfinite(c.y)) or not self._exists(system, c):
                 self.reason = c.failure
                 return None

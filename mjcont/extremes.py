@@ -22,6 +22,7 @@ from mjcont.numerics.problem import Array
 _TOL = 1e-7
 _CORNERS = 4  # parameters up to which every corner of the box is a start
 _SAME = 1e-7
+_SHORTEST = 1e-3
 _AT_BOUND = 1e-9
 
 
@@ -227,10 +228,10 @@ class _Box:
     def locate(self, u: Array) -> SpecialPoint | None:
         """Return the special point at u, followed from the nearest known one, or None where it does not exist."""
         distance = [float(np.linalg.norm(v - u)) for v, _ in self.known]
-        for i in np.argsort(distance, kind="stable")[:3]:
+        for i in np.argsort(distance, kind="stable")[:2]:
             if distance[i] == 0.0:
                 return self.known[i][1]
-            found = follow_point(self.known[i][1], self.values(u))
+            found = follow_point(self.known[i][1], self.values(u), shortest=_SHORTEST)
             if found.reached:
                 self.known.append((u.copy(), found.point))
                 return found.point

@@ -15,6 +15,7 @@ from mjcont.critical import check_targets, follow_point
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.numerics.problem import Array
 
+_SHORTEST = 1e-3
 _KINDS = ("contour", "surface")
 
 
@@ -151,8 +152,9 @@ def _axis(name: str, values: Sequence[float] | Array) -> Array:
 
 
 def _reach(start: SpecialPoint, axes: Mapping[str, Array], node: tuple[int, ...], points: Any, messages: Any) -> None:
+    values = {name: float(a[i]) for (name, a), i in zip(axes.items(), node, strict=True)}
     try:
-        found = follow_point(start, {name: float(a[i]) for (name, a), i in zip(axes.items(), node, strict=True)})
+        found = follow_point(start, values, shortest=_SHORTEST)
     except MjcontError as error:  # a point that is not continuable from here: data, as the others are
         messages[node] = str(error)
         return

@@ -16,6 +16,7 @@ from mjcont.numerics.problem import Array
 
 _SUFFICIENT = 1e-4
 _SHORTEST = 1e-6
+_SHORTEST_UNDEFINED = 1e-3
 _FLAT = 1e-13
 _NEAR = 1e-3
 
@@ -98,14 +99,14 @@ def _search(
 ) -> tuple[tuple[Array, float, Array] | None, bool]:
     """Return the first point along the projected direction that is low enough, and whether any was undefined."""
     length, undefined = 1.0, False
-    while length >= _SHORTEST:
+    while length >= (_SHORTEST_UNDEFINED if undefined else _SHORTEST):
         moved = np.clip(u + length * direction, 0.0, 1.0)
         there = function(moved)
         if there is None:
             undefined = True
         elif there[0] <= value + _SUFFICIENT * float(gradient @ (moved - u)) + _FLAT:
             return (moved, *there), undefined
-        length *= 0.5 if there is None else 0.35
+        length *= 0.25
     return None, undefined
 
 
