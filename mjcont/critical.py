@@ -34,7 +34,7 @@ _AGREE = 0.2
 _CLOSE = 1e-4
 _STEEPER = 3.0
 _EXISTS = 1e-6
-_NEWTON = 10
+_NEWTON = 6
 
 
 @dataclass(frozen=True, slots=True)

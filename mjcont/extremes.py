@@ -153,9 +153,10 @@ def _result(box: _Box, found: Sequence[_Run], tried: int, grid: SpecialMap | Non
             active[name] = "low" if u <= _AT_BOUND else "high"
     at_edge = bool(m.failure) and m.undefined
     status = "stationary" if not m.failure else "at the edge" if at_edge else "not converged"
+    edge = next((f for f in reversed(box.failures) if "ceases" in f), box.failures[-1] if box.failures else "")
     words = [{
         "stationary": "at bounds of the box" if len(active) == len(m.u) else "stationary in the box",
-        "at the edge": f"{box.point.label} ceases to exist beside it: {box.failures[-1] if box.failures else ''}",
+        "at the edge": f"beside it the point is lost: {edge}",
         "not converged": m.failure,
     }[status]]
     words.append(f"{same} of {tried} runs end here")
@@ -235,6 +236,8 @@ class _Box:
             if found.reached:
                 self.known.append((u.copy(), found.point))
                 return found.point
+            if found.status == "ceased":
+                break
         self.failures.append(found.message)
         return None
 

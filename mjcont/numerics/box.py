@@ -19,6 +19,7 @@ _SHORTEST = 1e-6
 _SHORTEST_UNDEFINED = 1e-3
 _FLAT = 1e-13
 _NEAR = 1e-3
+_CREEP = 1e-2  # steps shortened by an edge of existence that gain less than this end a run
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,8 +79,10 @@ def minimise(
         if not direction @ gradient < 0.0:
             direction = downhill
         found, undefined = _search(function, u, value, gradient, direction)
-        if found is None:
+        if found is None or (undefined and value - found[1] < _CREEP):
             failure = "the function is not defined where it falls further" if undefined else "no step lowers it further"
+            if found is not None:
+                u, value, gradient = found
             break
         after, value, slope = found
         inverse = _updated(inverse, after - u, slope - gradient)
