@@ -55,7 +55,7 @@ def draw_map(found: SpecialMap, quantity: str, kind: str, ax: Any) -> Any:
             ax.set_position((0.02, 0.06, 0.84, 0.92))
     else:
         filled = ax.contourf(xs, ys, z, levels=14, cmap="viridis")
-        lines = ax.contour(xs, ys, z, levels=filled.levels, colors="white", linewidths=0.6)
+        lines = ax.contour(xs, ys, z, levels=filled.levels, colors="white", linewidths=0.6, linestyles="solid")
         ax.clabel(lines, fontsize=7.0, fmt=_tick)
         ax.get_figure().colorbar(filled, ax=ax, label=axis_label(quantity, units[quantity]))
         low, high = (found.largest(quantity, smallest=s) for s in (True, False))

@@ -114,8 +114,7 @@ def full_gear_cusp():
 
 @pytest.mark.parametrize(
     "point",
-    [gear_fold, pytest.param(gear_cusp, marks=pytest.mark.long), full_gear_fold,
-     pytest.param(full_gear_cusp, marks=pytest.mark.long)],
+    [gear_fold, *(pytest.param(p, marks=pytest.mark.long) for p in (gear_cusp, full_gear_fold, full_gear_cusp))],
     ids=lambda p: p.__name__,
 )
 def test_gears_fold_and_cusp_move_with_20_parameters_as_points_solved_again_do(point):

@@ -190,6 +190,7 @@ def test_one_bound_is_active_where_the_largest_value_lies_on_an_edge():
     assert found.active == {"p": "low"}
 
 
+@pytest.mark.long
 def test_where_the_point_ceases_inside_the_box_the_extreme_lies_at_the_edge_of_its_existence():
     fold = next(f for f in map(wave_fold, ("LP1", "LP2", "LP3", "LP4")) if 0.0 < f["x"] < math.pi)
     found = mc.worst_case(fold, {"p": (0.0, 2.0)})  # la = sin(x) + p x, cos(x) = -p: largest at x = pi, where p = 1
@@ -260,6 +261,7 @@ def test_the_gears_largest_unlock_force_is_at_the_steepest_descent_and_the_large
     assert found.active == {"gravity_angle": "low", "load_factor": "high"}
 
 
+@pytest.mark.long
 def test_the_gears_largest_retraction_force_is_where_gravity_is_square_to_its_lever():
     """F_ret r_ret balances gravity's moment A cos + B sin at the cusp, largest where its derivative vanishes."""
     box = {"gravity_angle": (-REACH, REACH), "load_factor": (0.5, 2.5)}
