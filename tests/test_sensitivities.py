@@ -14,6 +14,7 @@ from functools import cache
 import pytest
 from reference import PARAMETERS, rigid_folds
 from test_problems_equilibria import branch_of_ab, branch_of_brusselator, branch_of_cusp
+from test_problems_mjcf import column_branch
 
 import mjcont as mc
 from mjcont.loci import CODIMENSION, locus_system
@@ -220,6 +221,31 @@ def test_the_cusp_of_the_exothermic_reaction_varies_as_its_closed_form():
     cusp = mc.continue_special(fold, "B", bounds=(8.0, 40.0)).point("CP1")
     found = mc.sensitivities(cusp, "beta", quantities=["B", "D", "u", "v"])["beta"]
     assert found == pytest.approx({"B": 4.0, "D": 0.0, "u": 0.0, "v": 0.0}, rel=1e-7, abs=1e-7)
+
+
+def test_the_bogdanov_takens_point_of_the_exothermic_reaction_varies_as_its_closed_form():
+    fold = mc.continue_equilibria(exothermic(), "D", bounds=(0.0, 0.6)).point("LP1")
+    (point,) = mc.continue_special(fold, "B", bounds=(8.0, 40.0)).of_kind("BT")
+    found = mc.sensitivities(point, "beta")["beta"]  # B = (1 + beta)^3 / beta, D = exp(-(1 + beta) / beta) / beta
+    assert found == pytest.approx({"B": 80.0 / 9.0, "D": -2.0 / 27.0 * math.exp(-4.0 / 3.0)}, rel=1e-7)
+
+
+@pytest.mark.parametrize("b", [0.1, 0.5, 1.0])
+def test_the_flutter_load_of_zieglers_column_varies_with_its_dampers_as_its_closed_form(b):
+    (hopf,) = column_branch(b).special_points  # P = 41 / 28 + b^2 / 2, omega^2 = 2 / 7
+    found = mc.sensitivities(hopf, "joint:*.damping", quantities=["P", "omega"])["joint:*.damping"]
+    assert found == pytest.approx({"P": b, "omega": 0.0}, rel=1e-7, abs=1e-7)
+
+
+def test_where_the_gears_fold_curve_turns_moves_as_the_point_followed_does():
+    """Beside the cusp, w . f_F_ret = 0."""
+    (turning,) = mc.continue_special(gear_fold(), "F_ul", bounds=(-1000.0, 0.0)).of_kind("BP")
+    found = mc.sensitivities(turning, "gravity_angle")
+    at, h = found.values["gravity_angle"], 1e-3
+    ends = [mc.follow_point(turning, {"gravity_angle": at + s * h}).point for s in (1.0, -1.0)]
+    for name in ("F_ret", "F_ul"):
+        centred = (ends[0][name] - ends[1][name]) / (2.0 * h)
+        assert found[name, "gravity_angle"] == pytest.approx(centred, rel=1e-5)
 
 
 def test_the_fold_of_ab_and_its_state_vary_as_their_closed_forms():

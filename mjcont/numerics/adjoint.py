@@ -23,7 +23,7 @@ import numpy as np
 
 from mjcont.numerics.bordered import Factored, border
 from mjcont.numerics.defining import Fold, FoldCoefficient
-from mjcont.numerics.differences import FIRST, NODES, SECOND, length_of, second_form
+from mjcont.numerics.differences import FIRST, NODES, PARAMETER, SECOND, Stencil, length_of, second_form
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.system import Local, System
 
@@ -31,6 +31,7 @@ _RAY = 1e-2
 _STATE_STEP = 3e-3
 _NODES = NODES[NODES != 0.0]
 _FIRST = FIRST[NODES != 0.0]
+_ONE_SIDED = Stencil((0.0, 1.0, 2.0, 3.0, 4.0), (-25 / 12, 4.0, -3.0, 4 / 3, -1 / 4), 1e-3)
 
 
 class Adjoint:
@@ -102,7 +103,10 @@ class Adjoint:
         problem: Any = system.problem
         parameter, value = problem.parameters[name], here[name]
         rule, h = problem.parameter_stencil(name, value, span)
-        if parameter.affine:
+        if parameter.affine and conditions and not self._frozen.all_frozen:  # only forces are affine, not conditions
+            size = max(abs(value), 1e-2 * (span or parameter.bounds[1] - parameter.bounds[0]))
+            rule, h = within(value, PARAMETER.step * size, parameter.hard_bounds)
+        elif parameter.affine:
             if conditions not in self._base:
                 self._base[conditions] = self._frozen.equations(here, self.y, conditions)
             h = inward(value, h, parameter.hard_bounds)
@@ -119,6 +123,14 @@ def inward(value: float, step: float, bounds: tuple[float, float]) -> float:
     return max(-step, low - value) if value - low > high - value else high - value
 
 
+def within(value: float, step: float, bounds: tuple[float, float]) -> tuple[Stencil, float]:
+    """Return a fourth-order rule and step, one-sided where the centred one leaves such bounds."""
+    low, high = bounds
+    if low <= value - 2.0 * step and value + 2.0 * step <= high:
+        return PARAMETER, step
+    return _ONE_SIDED, step if value + 4.0 * step <= high else -step
+
+
 class _Frozen:
     """The equations at other parameter values with null vectors frozen, and their gradients in the state."""
 
@@ -128,6 +140,11 @@ class _Frozen:
         self.fold: Fold | None = next((c for c in self.conditions if isinstance(c, Fold)), None)
         self.cusp: FoldCoefficient | None = next((c for c in self.conditions if isinstance(c, FoldCoefficient)), None)
         self._vectors: Mapping[str, Array] | None = None
+
+    @property
+    def all_frozen(self) -> bool:
+        """Whether all conditions are those of a fold or cusp, whose frozen form is linear in the forces."""
+        return all(c is self.fold or c is self.cusp for c in self.conditions)
 
     @property
     def vectors(self) -> Mapping[str, Array]:
