@@ -29,18 +29,22 @@ from mjcont.errors import (
 )
 
 if TYPE_CHECKING:
+    from mjcont.adjoint import Sensitivities, sensitivities
     from mjcont.branch import Branch, Column, Point, SpecialPoint
     from mjcont.bushes import add_bushes, bushed_xml, set_constraint_stiffness
     from mjcont.certificates import Certificate, verify_stability
     from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
+    from mjcont.critical import FollowedPoint, follow_point
     from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
     from mjcont.drawing import add_poses, draw, draw_poses
     from mjcont.equalities import ConstraintStiffness, constraint_stiffness
     from mjcont.extension import extend
+    from mjcont.extremes import WorstCase, worst_case
     from mjcont.found import Equilibria, Equilibrium
     from mjcont.histories import History, simulate, simulate_many
     from mjcont.loadpaths import load_path
     from mjcont.loci import continue_special
+    from mjcont.maps import SpecialMap, special_map
     from mjcont.margins import Barrier, BarrierCurve, BarrierMap, barrier_along, barrier_map, energy_barrier
     from mjcont.mechanism import Mechanism
     from mjcont.numerics.settings import Settings
@@ -53,16 +57,20 @@ if TYPE_CHECKING:
     from mjcont.vectorfield import VectorField
 
 _HOMES = {
+    "mjcont.adjoint": ("Sensitivities", "sensitivities"),
     "mjcont.branch": ("Branch", "Column", "Point", "SpecialPoint"),
     "mjcont.bushes": ("add_bushes", "bushed_xml", "set_constraint_stiffness"),
     "mjcont.certificates": ("Certificate", "verify_stability"),
     "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
+    "mjcont.critical": ("FollowedPoint", "follow_point"),
     "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
     "mjcont.drawing": ("add_poses", "draw", "draw_poses"),
     "mjcont.equalities": ("ConstraintStiffness", "constraint_stiffness"),
     "mjcont.extension": ("extend",),
+    "mjcont.extremes": ("WorstCase", "worst_case"),
     "mjcont.loadpaths": ("load_path",),
     "mjcont.loci": ("continue_special",),
+    "mjcont.maps": ("SpecialMap", "special_map"),
     "mjcont.margins": ("Barrier", "BarrierCurve", "BarrierMap", "barrier_along", "barrier_map", "energy_barrier"),
     "mjcont.mechanism": ("Mechanism",),
     "mjcont.numerics.settings": ("Settings",),
@@ -95,6 +103,7 @@ __all__ = [
     "Diagram",
     "Equilibria",
     "Equilibrium",
+    "FollowedPoint",
     "History",
     "Jump",
     "LoadPath",
@@ -107,12 +116,15 @@ __all__ = [
     "Point",
     "ResultFileError",
     "Segment",
+    "Sensitivities",
     "Settings",
+    "SpecialMap",
     "SpecialPoint",
     "StartError",
     "StiffnessStudy",
     "StudyError",
     "VectorField",
+    "WorstCase",
     "add_bushes",
     "add_poses",
     "barrier_along",
@@ -128,18 +140,22 @@ __all__ = [
     "extend",
     "find_equilibria",
     "find_equilibrium",
+    "follow_point",
     "iterate_equilibria",
     "load",
     "load_path",
     "load_study",
     "plot",
     "run_study",
+    "sensitivities",
     "set_constraint_stiffness",
     "simulate",
     "simulate_many",
+    "special_map",
     "stiffness_study",
     "switch_branches",
     "verify_stability",
+    "worst_case",
 ]
 
 

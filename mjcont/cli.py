@@ -25,6 +25,7 @@ _EXAMPLES = """examples:
   mjcont inspect overcentre                     what can be continued, what can be read, where to start
   mjcont run studies/overcentre.toml -o out     compute a study's branches, store them, draw its plots
   mjcont plot out/equilibria.h5 -x F -y theta_1
+  mjcont sensitivities out/equilibria.h5 LP1    how that fold moves with masses, lengths, stiffnesses
   mjcont view out/equilibria.h5 --label LP1     that pose in MuJoCo's viewer
 """
 
@@ -115,6 +116,22 @@ def _plot(args: argparse.Namespace) -> int:
     axes: Any = plot(*branches, x=args.x, y=args.y, labels=args.labels, degrees=args.degrees)
     save_figure(axes.figure, out)
     say(f"plot: {out}")
+    return OK
+
+
+def _sensitivities(args: argparse.Namespace) -> int:
+    from mjcont.adjoint import sensitivities
+
+    branch = _load(args.file)
+    with _naming(args.file):
+        found = sensitivities(branch.point(args.label), args.parameter, quantities=args.quantity)
+    say(str(found))
+    if args.csv:
+        say(f"written: {found.to_csv(args.csv)}")
+    if args.out:
+        from mjcont.plotting import save_figure
+
+        say(f"plot: {save_figure(found.plot().figure, args.out)}")
     return OK
 
 
@@ -321,6 +338,16 @@ def _parser() -> argparse.ArgumentParser:
     p.add_argument("-o", "--out", metavar="FILE", help="png, pdf or svg (default: FILE.png beside the first input)")
     p.add_argument("--no-labels", dest="labels", action="store_false", help="leave out LP1, HB1, ...")
     p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
+
+    p = command("sensitivities", _sensitivities, "tell how a stored special point moves with the model's parameters")
+    p.add_argument("file", metavar="FILE.h5")
+    p.add_argument("label", metavar="LABEL", help="a special point of it, such as LP1")
+    p.add_argument("-p", "--parameter", metavar="NAME", action="append",
+                   help="a parameter, or a path such as body:strut.mass (repeat it; default: all the model declares)")
+    p.add_argument("-q", "--quantity", metavar="COL", action="append",
+                   help="what moves (repeat it; default: the point's own parameters)")
+    p.add_argument("-o", "--out", metavar="FILE", help="draw a tornado chart of the first: png, pdf or svg")
+    p.add_argument("--csv", metavar="FILE.csv", help="write the table, SI and radians")
 
     p = command("view", _view, "open MuJoCo's viewer at a pose")
     p.add_argument("model", metavar="MODEL|FILE.h5", help=model_help + "; or a result file")

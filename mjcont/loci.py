@@ -19,7 +19,7 @@ from mjcont.numerics.trace import Walker
 
 CONTINUABLE = ("LP", "HB", "BP", "CP", "BT", "ZH")
 _NAMES = {"LP": "fold", "HB": "Hopf", "BP": "branch-point", "CP": "cusp", "BT": "Bogdanov-Takens", "ZH": "zero-Hopf"}
-_CODIMENSION = {"LP": 1, "HB": 1, "BP": 1, "CP": 2, "BT": 2, "ZH": 2}
+CODIMENSION = {"LP": 1, "HB": 1, "BP": 1, "CP": 2, "BT": 2, "ZH": 2}
 
 
 def continue_special(
@@ -63,7 +63,7 @@ def continue_special(
         See their messages.
     """
     problem = point.problem
-    if _followed_as(point) not in CONTINUABLE:
+    if followed_as(point) not in CONTINUABLE:
         raise MjcontError(
             f"a point of kind {point.kind or 'regular'} has no curve to follow. Valid kinds: {', '.join(CONTINUABLE)}."
         )
@@ -71,13 +71,13 @@ def continue_special(
         raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
     settings = make_settings(options)
     free = free_parameters(point, parameter, bounds)
-    kind = _followed_as(point)
+    kind = followed_as(point)
     if kind != point.kind:  # a point on a locus is followed with the parameter fixed that led to it
         free = [p for p in free if p.name != list(point.free)[-1]]
-    if len(free) != _CODIMENSION[kind] + 1:
+    if len(free) != CODIMENSION[kind] + 1:
         raise MjcontError(
             f"{point.label} lies on a curve in {len(free) - 1} parameters: a {_NAMES[kind]} curve has "
-            f"{_CODIMENSION[kind] + 1} free parameters, this would have {len(free)}"
+            f"{CODIMENSION[kind] + 1} free parameters, this would have {len(free)}"
         )
     system = locus_system(point, kind, free)
     stop: Callable[[Any], str | None] | None = unfolding_stop(system) if kind == "BP" else None
@@ -100,7 +100,7 @@ def default_ends(kind: str) -> tuple[str, ...]:
     return ("BT",) if kind == "HB" else ()
 
 
-def _followed_as(point: SpecialPoint) -> str:
+def followed_as(point: SpecialPoint) -> str:
     """Return the kind as which a point is followed: its own, or on a locus of folds (...) a fold (...)."""
     on_locus = point.curve.endswith(" locus")
     if on_locus and (point.kind == "UZ" or (point.kind == "BP" and point.curve == "LP locus")):

@@ -162,6 +162,27 @@ def test_plot_goes_beside_its_input_unless_told_otherwise(here: Path, stored: Pa
     assert sorted(p.name for p in here.iterdir()) == ["b.svg", "copy.h5", "copy.png"]
 
 
+def test_sensitivities_prints_a_table_and_writes_csv_and_chart(
+    here: Path, stored: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["sensitivities", str(stored), "LP1", "-p", "m_1", "-p", "k_sp", "-o", "t.png", "--csv", "t.csv"]) == 0
+    shown = capsys.readouterr().out
+    assert shown.startswith("LP1 (fold) of overcentre: F = ")
+    assert "N/kg" in shown
+    assert (here / "t.png").stat().st_size > 1000
+    assert (here / "t.csv").read_text().startswith("parameter,unit,value,tolerance,d F [N / unit]")
+
+
+def test_sensitivities_of_an_unknown_label_or_parameter_is_one_line(
+    stored: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for arguments, words in ((["LP9"], "unknown special point 'LP9'"), (["LP1", "-p", "m_9"], "unknown parameter")):
+        assert main(["sensitivities", str(stored), *arguments]) == 2
+        error = capsys.readouterr().err
+        assert words in error
+        assert error.count("\n") == 1
+
+
 def test_export_writes_degrees_or_radians(here: Path, stored: Path) -> None:
     assert main(["export", str(stored), "-o", "deg.csv"]) == 0
     assert main(["export", str(stored), "-o", "rad.csv", "--radians"]) == 0

@@ -48,12 +48,16 @@ class Fold:
     def vectors(self, local: Local) -> tuple[Array, Array, float]:
         """Return (v, w, g) in equilibrated scaled unknowns."""
         if self._cache is None or self._cache[0] is not local:
-            lu = Factored(border(self._scaled(local), self.b[:, None], self.c[None]))
+            lu = self.factored(local)
             rhs = np.zeros(len(self.b) + 1)
             rhs[-1] = 1.0
             right, left = lu.solve(rhs), lu.solve_transposed(rhs)
             self._cache = (local, right[:-1], left[:-1], float(right[-1]))
         return self._cache[1:]
+
+    def factored(self, local: Local) -> Factored:
+        """Return the factors of [J b; c' 0]."""
+        return Factored(border(self._scaled(local), self.b[:, None], self.c[None]))
 
     def physical(self, local: Local) -> tuple[Array, Array]:
         """Return the null vectors v and w of df/dx in physical units."""

@@ -56,15 +56,16 @@ def jacobian_from_rows(rows: Array, scale: Array, rule: Stencil) -> Array:
 
 
 # Sixth-order stencils in t for f(x + t v): values at t = -3h..3h.
-_NODES = np.array([-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0])
-_FIRST = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
-_SECOND = np.array([2.0, -27.0, 270.0, -490.0, 270.0, -27.0, 2.0]) / 180.0
+NODES = np.array([-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0])
+FIRST = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
+SECOND = np.array([2.0, -27.0, 270.0, -490.0, 270.0, -27.0, 2.0]) / 180.0
 # Eighth-wide stencil for the third derivative, sixth order.
 _NODES9 = np.arange(-4.0, 5.0)
 _THIRD = np.array([-7.0, 72.0, -338.0, 488.0, 0.0, -488.0, 338.0, -72.0, 7.0]) / 240.0
 
 
-def _length(v: Array, scale: Array) -> float:
+def length_of(v: Array, scale: Array) -> float:
+    """Return the largest component of v in units of its coordinate's scale, 1 for a zero vector."""
     size = float(np.max(np.abs(v) / scale)) if v.any() else 1.0
     return size
 
@@ -74,12 +75,12 @@ def directional(problem: Problem, x: Array, values: Values, v: Array, order: int
 
     The step is `step` of the coordinates' scale for the largest component of v.
     """
-    return combine(lambda rows: problem.residuals(x, values, rows), v, order, step / _length(v, problem.state_scale))
+    return combine(lambda rows: problem.residuals(x, values, rows), v, order, step / length_of(v, problem.state_scale))
 
 
 def combine(f, v: Array, order: int, h: float) -> Array:  # type: ignore[no-untyped-def]
     """Return the `order`-th derivative of t -> f(t v) at 0 from a batched f."""
-    nodes, weights = {1: (_NODES, _FIRST), 2: (_NODES, _SECOND), 3: (_NODES9, _THIRD)}[order]
+    nodes, weights = {1: (NODES, FIRST), 2: (NODES, SECOND), 3: (_NODES9, _THIRD)}[order]
     rows = f((nodes * h)[:, None] * v)
     return weights @ rows / h**order
 
@@ -89,10 +90,10 @@ def second_form(problem: Problem, x: Array, values: Values, u: Array, v: Array, 
     if np.array_equal(u, v):
         return directional(problem, x, values, u, 2, step)
     scale = problem.state_scale
-    a, b = u / _length(u, scale), v / _length(v, scale)
+    a, b = u / length_of(u, scale), v / length_of(v, scale)
     plus = directional(problem, x, values, a + b, 2, step)
     minus = directional(problem, x, values, a - b, 2, step)
-    return 0.25 * (plus - minus) * _length(u, scale) * _length(v, scale)
+    return 0.25 * (plus - minus) * length_of(u, scale) * length_of(v, scale)
 
 
 def bilinear_gradient(
@@ -104,7 +105,7 @@ def bilinear_gradient(
     w . B(v, v): a null vector v is the direction in which a curve of folds or a Newton step to a fold moves.
     """
     n, scale = problem.n, problem.state_scale
-    length = _length(v, scale)
+    length = length_of(v, scale)
     dv = (step / length) * v
     e = step * np.diag(scale)
     f = problem.residuals(x, values, np.concatenate([e + dv, e - dv, -e + dv, -e - dv])) @ w
