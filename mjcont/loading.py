@@ -111,8 +111,8 @@ def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     """Return the private copy on which residuals are evaluated.
 
     Its integrator is one for which qacc is the forward-dynamics acceleration, its solver is not cut short for speed,
-    sensors are off, and controls are never clamped (bounds outside a ctrlrange are refused before). A ctrlrange that the model itself does not clamp
-    is no limit.
+    sensors are off, and controls are never clamped (bounds outside a ctrlrange are refused before). A ctrlrange that
+    the model itself does not clamp is no limit.
     """
     private = copy_model(model)
     if model.opt.disableflags & _DISABLE.mjDSBL_CLAMPCTRL:
