@@ -107,7 +107,7 @@ def _run(args: argparse.Namespace) -> int:
 def _plot(args: argparse.Namespace) -> int:
     from mjcont.plotting import plot, save_figure
 
-    branches = [_load_branch(file) for file in args.files]
+    branches = [_load_curve(file) for file in args.files]
     for file, branch in zip(args.files, branches, strict=True):
         for column in (args.x, args.y):
             with _naming(file):
@@ -122,7 +122,7 @@ def _plot(args: argparse.Namespace) -> int:
 def _sensitivities(args: argparse.Namespace) -> int:
     from mjcont.adjoint import sensitivities
 
-    branch = _load(args.file)
+    branch = _load_branch(args.file)
     with _naming(args.file):
         found = sensitivities(branch.point(args.label), args.parameter, quantities=args.quantity)
     say(str(found))
@@ -177,9 +177,9 @@ def _bush(args: argparse.Namespace) -> int:
 
 
 def _export(args: argparse.Namespace) -> int:
-    branch = _load_branch(args.file)
+    result = _load(args.file)
     out = Path(args.out) if args.out else Path(args.file).with_suffix(".csv")
-    say(f"written: {branch.to_csv(out, degrees=args.degrees)}")
+    say(f"written: {result.to_csv(out, degrees=args.degrees)}")
     return OK
 
 
@@ -217,14 +217,21 @@ def _load(path: str) -> Any:
     return load(path)
 
 
+def _load_curve(path: str) -> Any:
+    """Read a branch, a locus or a load path."""
+    result = _load(path)
+    if hasattr(result, "velocities"):
+        raise ResultFileError(f"'{path}' holds a time history: inspect and export take it, this command takes curves")
+    return result
+
+
 def _load_branch(path: str) -> Branch:
     """Read a result that has points of its own to be named."""
     from mjcont.branch import Branch
 
-    result = _load(path)
+    result = _load_curve(path)
     if not isinstance(result, Branch):
-        what = "a time history: inspect and export take it" if hasattr(result, "velocities") else "a load path"
-        raise ResultFileError(f"'{path}' holds {what}, this command takes a branch or a locus")
+        raise ResultFileError(f"'{path}' holds a load path: this command takes a branch or a locus")
     return result
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.branch import KIND_NAMES, Branch, Point, show
+from mjcont.branch import KIND_NAMES, Branch, Column, Point, show
 from mjcont.errors import unknown_name
 from mjcont.numerics.problem import Array
 
@@ -155,6 +155,14 @@ class LoadPath:
             if j.label == label:
                 return j
         raise unknown_name("jump", label, [j.label for j in self.jumps])
+
+    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
+        """Write the columns along the whole path as CSV with units in the header; a jump lies between two rows."""
+        from mjcont.storage import write_columns
+
+        names = [*self.names, *(n for n in self.segments[0].branch.columns if n not in self.names)]
+        columns = {n: Column(n, self.unit(n), "path", self[n]) for n in names}
+        return write_columns(columns, path, degrees=degrees)
 
     def save(self, path: str | Path) -> Path:
         """Write the path to an HDF5 file (replacing it whole or not at all) and return the file's path."""
