@@ -6,6 +6,7 @@ import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import cache
 from importlib import metadata
 from typing import Any
 
@@ -272,13 +273,19 @@ def _describe_start(branch: Branch, origin: str) -> str:
     return f"{shown}; {branch.stability[i]} ({origin})"
 
 
+@cache
+def _versions() -> tuple[tuple[str, str], ...]:
+    """Return the versions of what results depend on."""
+    found = [(name, metadata.version(name)) for name in ("mujoco", "numpy", "scipy")]
+    try:
+        return (*found, ("mjcont", metadata.version("mjcont")))
+    except metadata.PackageNotFoundError:
+        return (*found, ("mjcont", "not installed"))
+
+
 def provenance(problem: Any) -> dict[str, str]:
     """Return versions and the model's hash."""
-    versions = {name: metadata.version(name) for name in ("mujoco", "numpy", "scipy")}
-    try:
-        versions["mjcont"] = metadata.version("mjcont")
-    except metadata.PackageNotFoundError:
-        versions["mjcont"] = "not installed"
+    versions = dict(_versions())
     mjcf = getattr(problem, "mjcf", None)
     if mjcf is not None:
         versions["model_sha256"] = hashlib.sha256(mjcf.encode()).hexdigest()

@@ -19,9 +19,8 @@ from mjcont.continuation import (
 )
 from mjcont.errors import BoundsError, MjcontError
 from mjcont.numerics.arclength import CurvePoint, point_from
-from mjcont.numerics.bordered import Factored
 from mjcont.numerics.events import Located
-from mjcont.numerics.newton import correct, solve, with_row
+from mjcont.numerics.newton import correct, solve
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Free, System
@@ -137,7 +136,7 @@ def _through(
     if not any(h.points for h in halves):
         return None
     local = system.local(x, y)
-    bp_point = CurvePoint(x, y, tangent, 0.0, local, Factored(with_row(system.jacobian(local, y), tangent)))
+    bp_point = CurvePoint(x, y, tangent, 0.0, local, system.jacobian(local, y))
     known = {k: v for k, v in {**point.coefficients, **point.vectors}.items() if k in ("type", "c", "tangents", "w")}
     located = Located("BP", bp_point, point.tolerance, point.converged, known)
     for half in halves:  # a curve that closes comes back to the point it left

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from scipy import sparse
 
 from mjcont.numerics.bordered import Factored, border, null_vectors
 from mjcont.numerics.newton import Corrected, correct, undefined, with_row
@@ -22,6 +23,9 @@ from mjcont.numerics.system import Local, System
 _WANDER = 0.5
 _CONTRACTION = 0.1
 _GROWTH = 2.0
+_PAST = 2
+# the contraction of the last corrector counts as this many times worse for the next
+_TRUST = 3.0
 
 
 @dataclass(slots=True)
@@ -34,11 +38,13 @@ class CurvePoint:
     tangent : (n + k,) unit tangent in scaled unknowns, in the direction of travel.
     sign : sign of det [G_z; t], which changes at simple branch points and nowhere else.
     local : the evaluation there.
-    factored : LU of [G_z; t].
+    jac : G_z there, in scaled unknowns, (n + k - 1, n + k).
     s : arclength from the start of its direction.
     error : scaled residual.
     angle : turning of the tangent since the last point, rad.
+    rate : contraction of the corrector's last step.
     back : (n + k,) scaled step from here to the point before, and its tangent; None at the start.
+    past : (s, G_z) of up to two points before, the latest first.
     extra : what detectors keep of the point (test values, spectrum).
     """
 
@@ -47,27 +53,29 @@ class CurvePoint:
     tangent: Array
     sign: float
     local: Local
-    factored: Factored
+    jac: Any
     s: float = 0.0
     error: float = 0.0
     angle: float = 0.0
     contraction: float = 0.0
     iterations: int = 0
+    rate: float = math.inf
     back: tuple[Array, Array] | None = None
+    past: tuple[tuple[float, Array], ...] = ()
     extra: dict[str, Any] = field(default_factory=dict)
 
 
 def point_from(c: Corrected, reference: Array, s: float) -> CurvePoint:
     """Return the curve point of a corrected one; the tangent makes an acute angle with `reference`."""
-    rhs = np.zeros(len(reference))
-    rhs[-1] = 1.0
     assert c.factored is not None
-    tangent = c.factored.solve(rhs)
-    tangent *= math.copysign(1.0, tangent @ reference) / np.linalg.norm(tangent)
-    factored = Factored(with_row(c.jac, tangent))
-    cosine = float(np.clip(tangent @ reference, -1.0, 1.0))
+    tangent = c.factored.last_column()
+    along = float(tangent @ reference)
+    tangent *= math.copysign(1.0, along) / math.sqrt(tangent @ tangent)
+    cosine = min(max(float(tangent @ reference), -1.0), 1.0)
+    # with the row r, the tangent is z / |z| for [G_z; r] z = e, so that det [G_z; t] = |z| det [G_z; r]
+    sign = c.factored.sign * math.copysign(1.0, along)
     return CurvePoint(
-        c.x, c.y, tangent, factored.sign, c.local, factored, s, c.error, math.acos(cosine), c.contraction, c.iterations
+        c.x, c.y, tangent, sign, c.local, c.jac, s, c.error, math.acos(cosine), c.contraction, c.iterations, c.rate
     )
 
 
@@ -127,6 +135,24 @@ def predict(point: CurvePoint, h: float) -> Array:
     return h * point.tangent + h**2 * (bend / length**2 + cubic * length) + h**3 * cubic
 
 
+def _matrix_ahead(point: CurvePoint, h: float) -> Array:
+    """Return G_z extrapolated to a step h ahead by the polynomial through the last points.
+
+    Bushes turn with the mechanism: the last point's derivatives are off by stiffness times angle at the next one.
+    """
+    if not point.past:
+        return point.jac
+    (s1, j1), *older = point.past
+    ahead, a = point.s + h, point.s
+    if not older:
+        t = h / (a - s1)
+        return point.jac + t * (point.jac - j1)
+    s2, j2 = older[0]
+    w0 = (ahead - s1) * (ahead - s2) / ((a - s1) * (a - s2))
+    w1 = (ahead - a) * (ahead - s2) / ((s1 - a) * (s1 - s2))
+    return w0 * point.jac + w1 * j1 + (1.0 - w0 - w1) * j2
+
+
 def advance(
     system: System, point: CurvePoint, h: float, settings: Settings, *, fresh: bool = False
 ) -> CurvePoint | str:
@@ -136,7 +162,10 @@ def advance(
     the soft direction turns by more than the last point's derivatives can tell.
     """
     x, y = system.move(point.x, point.y, system.admissible(point.x, predict(point, h)))
-    c = correct(system, x, y, point.tangent, None if fresh else point.factored, settings)
+    extrapolated = not (fresh or system.conditions or sparse.issparse(point.jac))
+    expected = _TRUST * point.rate if extrapolated and len(point.past) == _PAST else math.inf
+    lu = None if fresh else Factored(with_row(_matrix_ahead(point, h) if extrapolated else point.jac, point.tangent))
+    c = correct(system, x, y, point.tangent, lu, settings, expected)
     if c.failure:
         return c.failure
     wandered = float(np.linalg.norm(system.difference(c.x, c.y, x, y)))
@@ -144,6 +173,8 @@ def advance(
         return "the corrector wandered off the prediction"
     new = point_from(c, point.tangent, point.s + abs(h))
     new.back = (system.difference(point.x, point.y, new.x, new.y), point.tangent)
+    if extrapolated:
+        new.past = ((point.s, point.jac), *point.past[: _PAST - 1])
     if new.angle > settings.angle_max:
         return f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg"
     return new
@@ -188,12 +219,4 @@ def land(system: System, point: CurvePoint, index: int, target: float, settings:
     c = correct(system, x, y, row, None, settings)
     if c.failure:
         return c.failure
-    reference = point.tangent
-    rhs = np.append(np.zeros(system.n + system.k - 1), 1.0)
-    assert c.factored is not None
-    tangent = c.factored.solve(rhs)
-    tangent *= math.copysign(1.0, tangent @ reference) / np.linalg.norm(tangent)
-    factored = Factored(with_row(c.jac, tangent))
-    angle = math.acos(float(np.clip(tangent @ reference, -1.0, 1.0)))
-    s = point.s + float(np.linalg.norm(system.difference(c.x, c.y, point.x, point.y)))
-    return CurvePoint(c.x, c.y, tangent, factored.sign, c.local, factored, s, c.error, angle)
+    return point_from(c, point.tangent, point.s + float(np.linalg.norm(system.difference(c.x, c.y, point.x, point.y))))

@@ -58,6 +58,12 @@ class Factored:
             return self._lu.solve(scaled)
         return lapack.dgetrs(self._lu, self._pivots, scaled)[0]
 
+    def last_column(self) -> Array:
+        """Return the last column of the inverse, up to a positive factor: z with A z = e, e the last unit vector."""
+        rhs = np.zeros(len(self._rows))
+        rhs[-1] = 1.0
+        return self._lu.solve(rhs) if self._sparse else lapack.dgetrs(self._lu, self._pivots, rhs)[0]
+
     def solve_transposed(self, rhs: Array) -> Array:
         """Return the solution of A^T z = rhs."""
         if self._sparse:

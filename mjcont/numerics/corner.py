@@ -125,7 +125,7 @@ def _cross(system: System, point: CurvePoint, settings: Settings, piece: Piece) 
     note = describe(loaded_at(system, point), loaded(system, c.x, c.y))
     if new.tangent[system.n] * point.tangent[system.n] < 0:
         note += f"; {system.names[0]} turns back: a non-smooth fold"
-    corner = CurvePoint(x, y, point.tangent, point.sign, point.local, point.factored, point.s + reach, point.error)
+    corner = CurvePoint(x, y, point.tangent, point.sign, point.local, point.jac, point.s + reach, point.error)
     return new, Located("CO", corner, _SHARP, True, {}, note)
 
 

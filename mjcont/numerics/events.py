@@ -142,7 +142,7 @@ def point_at(system: System, old: CurvePoint, new: CurvePoint, c: Corrected, s: 
     fraction = (s - old.s) / (new.s - old.s) if new.s > old.s else 0.5
     tangent = (1.0 - fraction) * old.tangent + fraction * new.tangent
     tangent /= np.linalg.norm(tangent)
-    return CurvePoint(c.x, c.y[: system.k], tangent, old.sign, c.local, new.factored, s, c.error)
+    return CurvePoint(c.x, c.y[: system.k], tangent, old.sign, c.local, new.jac, s, c.error)
 
 
 @dataclass(slots=True)

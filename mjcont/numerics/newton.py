@@ -14,6 +14,7 @@ from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Local, System
 
 _SLOW = 0.5
+_FIRST, _LATER = 1e5, 1e2
 _DIVERGING = 2.0
 _NOISE = 1e-6
 _LARGEST_ERROR = 1e-7
@@ -31,7 +32,8 @@ class Corrected:
     factored : LU of the Jacobian there (with the row).
     jac : the system's Jacobian there (without the row).
     iterations : corrector steps before the last.
-    contraction : ratio of the last two steps.
+    contraction : ratio of the last two steps before the last Newton step.
+    rate : ratio of the last Newton step to the step before it.
     step : size of the last step: the tolerance reached.
     error : scaled residual.
     failure : empty, or a sentence.
@@ -47,6 +49,7 @@ class Corrected:
     error: float
     failure: str = ""
     jac: Any = None
+    rate: float = np.inf
 
 
 def with_row(jac: Any, row: Array | None) -> Any:
@@ -83,13 +86,23 @@ def undefined(system: System) -> str:
     return getattr(system.problem, "failure", "") or "f is not finite there"
 
 
-def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None, settings: Settings) -> Corrected:
+def correct(
+    system: System,
+    x: Array,
+    y: Array,
+    row: Array,
+    lu: Factored | None,
+    settings: Settings,
+    expected: float = np.inf,
+) -> Corrected:
     """Return to the curve from a prediction, moving orthogonally to `row`.
 
     Broyden steps from `lu` while they contract, renewed derivatives when they do not; a last Newton step with
-    derivatives at the solution takes the point to the noise floor.
+    derivatives at the solution takes the point to the noise floor. `expected` is the contraction of the first step
+    with `lu`, where the last points tell it: one step may then be enough.
     """
     size, ratio, failure = np.inf, 0.0, "the corrector did not converge"
+    tol = settings.tol
     local, iterations = system.local(x, y), 0
     steps: list[Array] = []
     while iterations < settings.max_corrections:
@@ -104,8 +117,8 @@ def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None,
         ratio = size / last if np.isfinite(last) else 0.0
         x, y = system.move(x, y, step)
         local = system.local(x, y)
-        contracting = ratio > 0.0 and size <= 100.0 * settings.tol and size * ratio <= 0.1 * settings.tol
-        if size <= settings.tol or contracting:
+        rate, most = (expected, _FIRST) if iterations == 1 else (ratio, _LATER)
+        if size <= tol or (rate > 0.0 and size <= most * tol and size * rate <= 0.1 * tol):
             failure = ""
             break
         if ratio > _SLOW and size <= _NOISE and iterations > 2:  # as close as the noise of f allows
@@ -123,7 +136,7 @@ def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None,
     factored = Factored(with_row(jac, row))
     step, _ = _newton_step(system, local, y, factored, row)
     x, y = system.move(x, y, step)
-    size = float(np.linalg.norm(step))
+    last, size = size, float(np.linalg.norm(step))
     if size > settings.tol:  # derivatives are to be those of the point itself
         local = system.local(x, y)
         jac = system.jacobian(local, y)
@@ -131,7 +144,7 @@ def correct(system: System, x: Array, y: Array, row: Array, lu: Factored | None,
     error = system.error(local, x, y)
     if not error < _LARGEST_ERROR:
         failure = "the corrector stalled away from the curve"
-    return Corrected(x, y, local, factored, iterations, ratio, size, error, failure, jac)
+    return Corrected(x, y, local, factored, iterations, ratio, size, error, failure, jac, size / max(last, 1e-300))
 
 
 def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int = 25, reach: float = 0.5) -> Corrected:

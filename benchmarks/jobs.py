@@ -1,0 +1,63 @@
+"""Whole jobs as a user meets them: starting, inspecting, the locus of figure 12, all figures."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+
+import mjcont as mc
+from benchmarks.measure import seconds
+
+
+def python(code: str) -> float:
+    """Return how long a fresh interpreter takes for some code, in s."""
+    return seconds(lambda: subprocess.run([sys.executable, "-c", code], check=True, capture_output=True))
+
+
+def import_time() -> float:
+    """Return what `import mjcont` adds to importing numpy and mujoco, in s."""
+    code = (
+        "import time, numpy, mujoco; t = time.perf_counter(); import mjcont; "
+        "mjcont.continue_equilibria; mjcont.Mechanism; print(time.perf_counter() - t)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    return float(done.stdout)
+
+
+def command(*arguments: str) -> float:
+    """Return how long a mjcont command takes, in s."""
+    return seconds(lambda: subprocess.run([sys.executable, "-m", "mjcont", *arguments], check=True, capture_output=True))
+
+
+def inspect() -> float:
+    """Return the time of `mjcont inspect` on the overcentre mechanism, in s."""
+    return command("inspect", "overcentre")
+
+
+def reproduce() -> float:
+    """Return the time of all the paper's figures, in s."""
+    with tempfile.TemporaryDirectory() as folder:
+        return command("reproduce", "-o", folder)
+
+
+def locus() -> float:
+    """Return the time of the two-parameter locus of figure 12, its branch and cusp included, in s."""
+    gear = mc.Mechanism.from_xml("nose_gear")
+
+    def run() -> None:
+        branch = mc.continue_equilibria(gear, "F_ret", (0.0, 8e5), {"F_ret": 2.5e5}, keyframe="uplock_above")
+        fold = max(branch.of_kind("LP"), key=lambda p: p["F_ret"])
+        mc.continue_special(fold, "F_ul", bounds=(-1000.0, 0.0))
+
+    return seconds(run)
+
+
+def memory(links: int) -> float:
+    """Return the peak memory of a process that computes the chain's branch, in MB."""
+    code = (
+        "import resource; from benchmarks.cases import chain; "
+        f"chain({links}).run(); print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    return float(done.stdout)
