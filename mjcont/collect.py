@@ -15,7 +15,7 @@ import numpy as np
 from mjcont.branch import Branch, Column, Point, SpecialPoint, show
 from mjcont.errors import StartError
 from mjcont.numerics.arclength import CurvePoint, first_point
-from mjcont.numerics.equilibria import local_spectrum, spectrum_of
+from mjcont.numerics.equilibria import local_spectrum, spectra_of
 from mjcont.numerics.events import Located
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
@@ -152,7 +152,7 @@ def build_branch(
     problem: Any = system.problem
     values = [system.values(p.y) for p, _ in rows]
     states = np.array([p.x for p, _ in rows])
-    spectra = [spectrum_of(p) for p, _ in rows]
+    spectra = spectra_of([p for p, _ in rows])
     measured = problem.measure(states, values)
     unit_of = units(problem)
     columns = {

@@ -14,22 +14,22 @@ from mjcont.numerics.problem import Array
 _TINY = 1e-300
 
 
+def largest_in_rows(matrix: Any) -> Array:
+    """Return the largest absolute value in each row, (m,)."""
+    if isinstance(matrix, np.ndarray):
+        return np.abs(matrix).max(axis=1)
+    return abs(matrix).max(axis=1).toarray().ravel()
+
+
 def row_scale(matrix: Any, guard: float = 1e-8) -> Array:
     """Return 1 / (largest entry of each row), rows below `guard` of the largest counting as that large, (m,)."""
-    largest = abs(matrix).max(axis=1)
-    if sparse.issparse(largest):
-        largest = largest.toarray().ravel()
+    largest = largest_in_rows(matrix)
     top = float(largest.max()) if largest.size else 1.0
     return 1.0 / np.maximum(largest, max(guard * top, _TINY))
 
 
 class Factored:
-    """LU factors of a square matrix, rows equilibrated.
-
-    Attributes
-    ----------
-    sign : sign of the determinant (0 where a pivot vanished).
-    """
+    """LU factors of a square matrix, rows equilibrated."""
 
     def __init__(self, matrix: Any) -> None:
         self._rows = row_scale(matrix)
@@ -41,15 +41,24 @@ class Factored:
             except RuntimeError:
                 shift = 1e-14 * sparse.identity(scaled.shape[0], format="csc")
                 self._lu = splu(sparse.csc_matrix(scaled + shift))
-            pivots = self._lu.U.diagonal()
-            parity = _parity(self._lu.perm_r) * _parity(self._lu.perm_c)
+            self._singular = False
         else:
-            self._lu, self._pivots, _ = lapack.dgetrf(self._rows[:, None] * matrix)
-            pivots = self._lu.diagonal()
-            parity = 1.0 - 2.0 * (np.count_nonzero(self._pivots != np.arange(len(pivots))) % 2)
-            if not pivots.all():
+            self._lu, self._pivots, info = lapack.dgetrf(self._rows[:, None] * matrix)
+            self._singular = info > 0
+            if self._singular:
+                pivots = self._lu.diagonal()
                 self._lu[pivots == 0.0, pivots == 0.0] = 1e-16
-        self.sign = float(parity * np.prod(np.sign(pivots)))
+
+    @property
+    def sign(self) -> float:
+        """Sign of the determinant (0 where a pivot vanished)."""
+        if self._singular:
+            return 0.0
+        if self._sparse:
+            negative = np.count_nonzero(self._lu.U.diagonal() < 0)
+            return _parity(self._lu.perm_r) * _parity(self._lu.perm_c) * (1.0 - 2.0 * (negative % 2))
+        swaps = np.count_nonzero(self._pivots != np.arange(len(self._pivots)))
+        return 1.0 - 2.0 * ((swaps + np.count_nonzero(self._lu.diagonal() < 0.0)) % 2)
 
     def solve(self, rhs: Array) -> Array:
         """Return the solution of A z = rhs."""

@@ -25,7 +25,7 @@ from mjcont.numerics.events import (
 from mjcont.numerics.newton import Corrected, solve
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
-from mjcont.numerics.spectrum import Spectrum, spectrum
+from mjcont.numerics.spectrum import Spectrum, conservative_spectra, spectrum, symmetric
 from mjcont.numerics.system import Local, System
 
 _NOT_TRANSVERSE = 1e-6
@@ -43,6 +43,31 @@ def spectrum_of(point: CurvePoint) -> Spectrum:
     if "spectrum" not in point.extra:
         point.extra["spectrum"] = local_spectrum(point.local)
     return point.extra["spectrum"]
+
+
+def negative_stiffness(point: CurvePoint) -> int | None:
+    """Return the number of negative eigenvalues of K, computed once: that of unstable eigenvalues.
+
+    None where it does not decide: for a K that is not symmetric, or a problem whose damping is not known to be
+    passive whatever the state (symmetric, semidefinite C).
+    """
+    if "negative" not in point.extra:
+        count = None
+        if getattr(point.local.problem, "passive", False) and symmetric(point.local.raw_jac):
+            count = int(np.count_nonzero(np.linalg.eigvalsh(point.local.raw_jac) > 0.0))
+        point.extra["negative"] = count
+    return point.extra["negative"]
+
+
+def spectra_of(points: Sequence[CurvePoint]) -> list[Spectrum]:
+    """Return the spectra at points, those that the walk could do without in one go."""
+    late = [p for p in points if "spectrum" not in p.extra and negative_stiffness(p) is not None]
+    if late:
+        problem: Any = late[0].local.problem
+        pencils = problem.pencils([p.x for p in late], [p.local.values for p in late], [p.local.raw_jac for p in late])
+        for point, found in zip(late, conservative_spectra(pencils), strict=True):
+            point.extra["spectrum"] = found
+    return [spectrum_of(p) for p in points]
 
 
 def local_spectrum(local: Local) -> Spectrum:
@@ -165,8 +190,9 @@ class HopfDetector:
 
     def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
         """Whether the count changes; symmetric K and C exclude it."""
-        a, b = spectrum_of(old), spectrum_of(new)
-        if a.conservative and b.conservative:
+        if negative_stiffness(old) is not None and negative_stiffness(new) is not None:
+            return False
+        if spectrum_of(old).conservative and spectrum_of(new).conservative:
             return False
         return self._differs(old, new) or self._returns(old, new)
 
@@ -265,21 +291,31 @@ class MultipleDetector:
 
     def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
         """Whether two or more eigenvalues of K change sign while the curve goes straight on."""
-        a, b = spectrum_of(old), spectrum_of(new)
-        if not (a.conservative and b.conservative) or old.tangent[self.system.n] * new.tangent[self.system.n] <= 0:
+        if old.tangent[self.system.n] * new.tangent[self.system.n] <= 0:
             return False
-        return abs(a.n_unstable - b.n_unstable) > 1
+        a, b = self._unstable(old), self._unstable(new)
+        return a is not None and b is not None and abs(a - b) > 1
+
+    @staticmethod
+    def _unstable(point: CurvePoint) -> int | None:
+        """Return the number of unstable eigenvalues of a conservative problem, None for any other."""
+        count = negative_stiffness(point)
+        if count is not None:
+            return count
+        s = spectrum_of(point)
+        return s.n_unstable if s.conservative else None
 
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
         """Return the bracketed point; none where branch points were found one by one."""
         if sum(e.kind == "BP" for e in found) > 1:
             return []
-        before, count = spectrum_of(old).n_unstable, spectrum_of(new).n_unstable - spectrum_of(old).n_unstable
+        before = self._unstable(old) or 0
+        count = (self._unstable(new) or 0) - before
         while new.s - old.s > _BRACKET:
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
             if isinstance(middle, str):
                 break
-            old, new = (middle, new) if spectrum_of(middle).n_unstable == before else (old, middle)
+            old, new = (middle, new) if self._unstable(middle) == before else (old, middle)
         note = f"{abs(count)} eigenvalues of K vanish together: a point of higher multiplicity, bracketed only"
         return [Located("BP", new, new.s - old.s, False, {"type": "multiple"}, note)]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -54,7 +55,18 @@ class Corrected:
 
 def with_row(jac: Any, row: Array | None) -> Any:
     """Return a Jacobian with `row` below it."""
-    return jac if row is None else border(jac, np.zeros((jac.shape[0], 0)), row[None])
+    if row is None:
+        return jac
+    if not isinstance(jac, np.ndarray):
+        return border(jac, np.zeros((jac.shape[0], 0)), row[None])
+    out = np.empty((jac.shape[0] + 1, jac.shape[1]))
+    out[:-1], out[-1] = jac, row
+    return out
+
+
+def length(step: Array) -> float:
+    """Return the Euclidean norm of a vector."""
+    return math.sqrt(step @ step)
 
 
 def matrix_with_row(system: System, local: Local, y: Array, row: Array | None) -> Any:
@@ -110,7 +122,7 @@ def correct(
         if lu is None:
             lu, steps = Factored(matrix_with_row(system, local, y, row)), []
         step = _broyden(_newton_step(system, local, y, lu, row)[0], steps)
-        last, size = size, float(np.linalg.norm(step))
+        last, size = size, length(step)
         if not size < _LARGEST_STEP:
             failure = "the corrector diverged" if np.isfinite(size) else undefined(system)
             break
@@ -136,7 +148,7 @@ def correct(
     factored = Factored(with_row(jac, row))
     step, _ = _newton_step(system, local, y, factored, row)
     x, y = system.move(x, y, step)
-    last, size = size, float(np.linalg.norm(step))
+    last, size = size, length(step)
     if size > settings.tol:  # derivatives are to be those of the point itself
         local = system.local(x, y)
         jac = system.jacobian(local, y)
@@ -162,7 +174,7 @@ def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int =
     for iteration in range(1, most + 1):
         factored = Factored(system.jacobian(local, y))
         step, _ = _newton_step(system, local, y, factored, None)
-        last, size = size, float(np.linalg.norm(step))
+        last, size = size, length(step)
         if not np.isfinite(size) or (size > _LARGEST_STEP and iteration > 2):
             return Corrected(x, y, local, factored, iteration, np.inf, size, np.inf, "Newton's method diverged")
         step *= min(1.0, reach / size) if size > 0 else 1.0

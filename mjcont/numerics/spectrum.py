@@ -8,12 +8,12 @@ difference derivatives.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy import linalg, sparse
+from scipy import sparse
 from scipy.sparse.linalg import ArpackNoConvergence, eigs, splu
 
 from mjcont.numerics.differences import SECOND_ORDER
@@ -75,8 +75,8 @@ def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spec
         size = np.abs(pencil.stiffness).max()
         return _classify(ev, 1e-11 * size + 1e-12 * np.abs(ev), conservative=False)
     k, c = pencil.stiffness, pencil.damping
-    if _symmetric(k) and _symmetric(c) and np.linalg.eigvalsh(0.5 * (c + c.T))[0] >= -_ROUNDING * np.abs(c).max():
-        return _conservative(pencil.mass, c, 0.5 * (k + k.T))
+    if symmetric(k) and symmetric(c) and np.linalg.eigvalsh(0.5 * (c + c.T))[0] >= -_ROUNDING * np.abs(c).max():
+        return _conservative(pencil.mass[None], c[None], 0.5 * (k + k.T)[None])[0]
     ev = quadratic_eigenvalues(pencil.mass, c, k)
     noise, zero = _noise_bound(pencil.mass, k, ev)
     close = np.flatnonzero(((np.abs(ev.real) <= noise) | zero) & (ev.imag >= 0))
@@ -116,34 +116,49 @@ def _measured_noise(mass: Array, damping: Array, stiffness: Array, s: complex, s
     return error / max(slope, 1e-300)
 
 
-def _symmetric(matrix: Array) -> bool:
+def symmetric(matrix: Array) -> bool:
+    """Return whether a difference matrix is symmetric as far as its noise tells."""
     return bool(np.abs(matrix - matrix.T).max() <= _SYMMETRY_NOISE * max(np.abs(matrix).max(), 1e-300))
 
 
 def quadratic_eigenvalues(mass: Array, damping: Array, stiffness: Array) -> Array:
-    """Return the 2 n eigenvalues of s^2 M + s C + K, scaled by the frequency of the largest stiffness."""
-    n = len(mass)
-    both = np.linalg.solve(mass, np.hstack([stiffness, damping]))
-    k, c = both[:, :n], both[:, n:]
-    rate = np.sqrt(max(np.abs(k).max(), 1e-300))
-    block = np.zeros((2 * n, 2 * n))
-    block[:n, n:] = np.eye(n)
-    block[n:, :n], block[n:, n:] = -k / rate**2, -c / rate
-    return np.linalg.eigvals(block) * rate
+    """Return the 2 n eigenvalues of s^2 M + s C + K, scaled by the frequency of the largest stiffness.
+
+    The matrices are (n, n), or stacks (N, n, n) that give (N, 2 n).
+    """
+    n = mass.shape[-1]
+    both = np.linalg.solve(mass, np.concatenate([stiffness, damping], axis=-1))
+    k, c = both[..., :n], both[..., n:]
+    rate = np.sqrt(np.maximum(np.abs(k).max(axis=(-2, -1)), 1e-300))[..., None, None]
+    block = np.zeros((*mass.shape[:-2], 2 * n, 2 * n))
+    block[..., :n, n:] = np.eye(n)
+    block[..., n:, :n], block[..., n:, n:] = -k / rate**2, -c / rate
+    return np.linalg.eigvals(block) * rate[..., 0]
 
 
-def _conservative(mass: Array, damping: Array, stiffness: Array) -> Spectrum:
+def conservative_spectra(pencils: Sequence[Pencil]) -> list[Spectrum]:
+    """Return the spectra of pencils that are known to have a symmetric K and a symmetric, semidefinite C."""
+    k = np.array([p.stiffness for p in pencils])
+    mass, damping = (np.array([getattr(p, name) for p in pencils]) for name in ("mass", "damping"))
+    return _conservative(mass, damping, 0.5 * (k + k.transpose(0, 2, 1)))
+
+
+def _conservative(mass: Array, damping: Array, stiffness: Array) -> list[Spectrum]:
     """Classify by the inertia of K; the damping only decides whether a mode with positive K is damped."""
-    ev = _sorted(quadratic_eigenvalues(mass, damping, stiffness))
-    squares = linalg.eigvalsh(stiffness, mass)
-    noise = _DIFFERENCE_NOISE * np.abs(stiffness).max() / np.diag(mass).max()
-    negative = int(np.count_nonzero(squares < -noise))
-    rounding = _ROUNDING * float(np.abs(ev).max(initial=0.0))
-    margin = np.full(len(ev), rounding)
-    if negative:
-        return Spectrum(ev, UNSTABLE, negative, margin, True)
-    touching = np.any(np.abs(squares) <= noise) or np.any(np.abs(ev.real) <= rounding)
-    return Spectrum(ev, MARGINAL if touching else STABLE, 0, margin, True)
+    all_values = quadratic_eigenvalues(mass, damping, stiffness)
+    lower = np.linalg.inv(np.linalg.cholesky(mass))
+    all_squares = np.linalg.eigvalsh(lower @ stiffness @ lower.transpose(0, 2, 1))
+    found = []
+    for m, k, values, squares in zip(mass, stiffness, all_values, all_squares, strict=True):
+        ev = _sorted(values)
+        noise = _DIFFERENCE_NOISE * np.abs(k).max() / np.diag(m).max()
+        negative = int(np.count_nonzero(squares < -noise))
+        rounding = _ROUNDING * float(np.abs(ev).max(initial=0.0))
+        margin = np.full(len(ev), rounding)
+        touching = np.any(np.abs(squares) <= noise) or np.any(np.abs(ev.real) <= rounding)
+        state = UNSTABLE if negative else MARGINAL if touching else STABLE
+        found.append(Spectrum(ev, state, negative, margin, True))
+    return found
 
 
 def _sorted(ev: Array) -> Array:

@@ -16,7 +16,7 @@ from typing import Any, Protocol
 import numpy as np
 from scipy import sparse
 
-from mjcont.numerics.bordered import border
+from mjcont.numerics.bordered import border, largest_in_rows
 from mjcont.numerics.problem import Array, Pencil, Problem, Values
 
 _LOG_SPAN = 1e3
@@ -66,7 +66,7 @@ class Free:
 class Local:
     """What is known of the problem at one (x, p): computed on demand, once."""
 
-    __slots__ = ("_lin", "_pencil", "_residual", "accurate", "problem", "spans", "values", "wrt", "x")
+    __slots__ = ("_jac", "_lin", "_pencil", "_residual", "accurate", "problem", "spans", "values", "wrt", "x")
 
     def __init__(
         self,
@@ -79,6 +79,7 @@ class Local:
     ) -> None:
         self.problem, self.x, self.values, self.wrt, self.accurate = problem, x, values, wrt, accurate
         self.spans = spans
+        self._jac: Any = None
         self._lin: Any = None
         self._pencil: Pencil | None = None
         self._residual: Array | None = None
@@ -102,8 +103,10 @@ class Local:
     @property
     def jac(self) -> Any:
         """df/dx times the state scale: derivatives in scaled unknowns, (n, n)."""
-        jac, scale = self._linearize().jac, self.problem.state_scale
-        return (jac @ sparse.diags(scale)).tocsc() if sparse.issparse(jac) else jac * scale
+        if self._jac is None:
+            jac, scale = self._linearize().jac, self.problem.state_scale
+            self._jac = jac * scale if isinstance(jac, np.ndarray) else (jac @ sparse.diags(scale)).tocsc()
+        return self._jac
 
     @property
     def raw_jac(self) -> Any:
@@ -125,8 +128,7 @@ class Local:
 
 def equation_scale(local: Local) -> Array:
     """Return 1 / (size of each equation) from the rows of J, guarded where they (or all of J) vanish, (n,)."""
-    largest = abs(local.jac).max(axis=1)
-    largest = largest.toarray().ravel() if sparse.issparse(largest) else largest
+    largest = largest_in_rows(local.jac)
     by_parameters = float(np.abs(local.par).max()) if local.par.size else 0.0
     top = max(float(largest.max()), ROW_GUARD * by_parameters)
     if top < _VANISHES:  # a degenerate point: take the sizes a little beside it
@@ -195,9 +197,9 @@ class System:
 
     def values(self, y: Array) -> dict[str, float]:
         """Return the value of every parameter at y."""
-        merged = dict(self.base)
-        for p, u in zip(self.free, y, strict=False):
-            merged[p.name] = p.value(float(u))
+        merged = self.base.copy()
+        for p, u in zip(self.free, y.tolist(), strict=False):
+            merged[p.name] = p.value(u)
         return merged
 
     def local(self, x: Array, y: Array) -> Local:
@@ -222,9 +224,14 @@ class System:
 
     def jacobian(self, local: Local, y: Array) -> Any:
         """Return dG in scaled unknowns, (equations, n + k)."""
-        slopes = np.array([p.slope(u) for p, u in zip(self.free, y, strict=False)])
+        slopes = [p.slope(u) for p, u in zip(self.free, y, strict=False)]
+        if not self.conditions and isinstance(local.jac, np.ndarray):
+            out = np.empty((self.n, self.n + self.k))
+            out[:, : self.n] = local.jac
+            np.multiply(local.par, slopes, out=out[:, self.n :])
+            return out
         columns = np.zeros((self.n, self.k))
-        columns[:, : len(self.free)] = local.par * slopes
+        columns[:, : len(self.free)] = local.par * np.array(slopes)
         at = len(self.free)
         for c in self.conditions:
             if c.unfolds:
