@@ -11,6 +11,7 @@ from mjcont.rows import ConstrainedRows, Rows
 from mjcont.writer import FieldWriter
 
 _MAX_BATCHES = 32
+_MANY_ROWS = 256
 _ACCELERATION_STEPS = (1e-3, 1e-6)
 _VELOCITY_STEPS = (1.0, 1e-3, 1e-6)
 # at unit speed drag counts that is not there at rest
@@ -42,15 +43,18 @@ class Evaluator:
             rows = self._batches[count] = Rows(self.model, count, self._kinks)
         return rows
 
-    def forces(self, qpos: Array, qvel: Array | None = None) -> Array:
-        """Return the generalised forces at zero acceleration for every row, (m, nv)."""
+    def forces(self, qpos: Array, qvel: Array | None = None, ctrl: Array | None = None) -> Array:
+        """Return the generalised forces at zero acceleration for every row, (m, nv).
+
+        `ctrl` (m, nu) gives smooth models rows with controls of their own.
+        """
         self.count += len(qpos)
         if self.writer.failure:  # no model there: a curve ends, as one does where a function leaves its domain
             return np.full((len(qpos), self.model.nv), np.nan)
         if self._constrained is not None:
             return self._constrained.forward(qpos, qvel, self.writer)
         rows = self._last = self._rows(len(qpos))
-        return rows.forward(qpos, qvel, self.writer)
+        return rows.forward(qpos, qvel, self.writer, ctrl)
 
     @property
     def sides(self) -> list[bytes]:
@@ -84,6 +88,19 @@ class Evaluator:
             return frozenset()
         self.forces(x[None])
         return self._kinks.names(self.model, self._rows(1).codes[0])
+
+    def dampings(self, states: Array, scale: Array) -> Array:
+        """Return `damping` at many states of a model without drag and kinks, (m, nv, nv)."""
+        n, found = self.model.nv, np.empty((len(states), self.model.nv, self.model.nv))
+        steps = np.concatenate([np.diag(scale), -np.diag(scale)])
+        many = max(_MANY_ROWS // (2 * n), 1)
+        for first in range(0, len(states), many):
+            here = states[first : first + many]
+            padded = np.concatenate([here, np.broadcast_to(states[-1], (many - len(here), states.shape[1]))])
+            rows = self.forces(np.repeat(padded, 2 * n, axis=0), np.tile(steps, (many, 1)))
+            rows = rows.reshape(many, 2, n, n)[: len(here)]
+            found[first : first + many] = ((rows[:, 1] - rows[:, 0]) / (2.0 * scale)[:, None]).transpose(0, 2, 1)
+        return found
 
     def position(self, x: Array) -> mujoco.MjData:
         """Return data of our own with everything that depends on position computed."""

@@ -61,6 +61,24 @@ def _refuse_actuator(model: mujoco.MjModel, actuator: int) -> None:
     )
 
 
+def passive(model: mujoco.MjModel) -> bool:
+    """Whether velocities at rest meet dampers only: on joints, on tendons, along actuators.
+
+    The damping matrix is then a sum of c J'J with c >= 0, symmetric and positive semidefinite in every state.
+    """
+    dampers = (model.dof_damping, model.tendon_damping, model.actuator_damping)
+    plain = np.all(model.actuator_gaintype == int(mujoco.mjtGain.mjGAIN_FIXED)) and not model.na
+    affine = model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_AFFINE)
+    none = model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_NONE)
+    resisting = np.all(none | (affine & (model.actuator_biasprm[:, 2] <= 0)))
+    elsewhere = model.opt.density or model.opt.viscosity or model.nplugin or model.nflex
+    polynomials = (model.dof_dampingpoly, model.tendon_dampingpoly, model.actuator_dampingpoly)
+    return bool(
+        plain and resisting and not elsewhere
+        and all(np.all(d >= 0) for d in dampers) and not any(p.any() for p in polynomials)
+    )
+
+
 def friction_notes(model: mujoco.MjModel, friction: str) -> list[str]:
     """Return what is to be said about friction, warning of friction that is left out.
 

@@ -99,9 +99,9 @@ class DataInputs:
         return self._fields["ctrl"]
 
     @property
-    def delayed(self) -> bool:
-        """Whether a control reaches its actuator late."""
-        return bool(self._delayed)
+    def followed(self) -> bool:
+        """Whether an activation follows a control."""
+        return bool(len(self._follow[0]))
 
     def reset(self, base: mujoco.MjModel) -> None:
         """Go back to the inputs of a model as loaded."""

@@ -87,7 +87,7 @@ class Mechanism:
         self.observables = model_observables(model)
         self.declared: dict[str, Any] = {}
         self.keyframes = loading.keyframes(model)
-        self.constrained = loading.is_constrained(model)
+        self.constrained, self._passive = loading.is_constrained(model), features.passive(model)
         self._held: tuple[str, ...] = ()
         self._kin: WeakSet[Mechanism] = WeakSet((self,))  # this and its copies with held modes: one set of models
         self._beside = ""  # why the model does not compile at a point of the last stencil
@@ -221,20 +221,39 @@ class Mechanism:
         rule, self._beside = stencil(accurate), ""
         steps = jacobian_steps(self.state_scale, rule)
         self._writer.write(self.parameters, values)
-        moved = np.concatenate([x[None], self._moved(x, steps)])
-        rows = self._evaluator.forces(moved)
+        riders = () if self.nonsmooth else tuple(n for n in wrt if self._writer.alone(self.parameters, n))
+        rows, rates = self._with_riders(x, values, self._moved(x, steps), riders)
         f, sides = rows[0].copy(), self._evaluator.sides
         jac = jacobian_from_rows(rows[1:], self.state_scale, rule)
         if sides and not self.failure:
             jac = one_sided(jac, rows, sides, steps, lambda finer: self._pieces(x, finer))
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
+            if name in riders:
+                par[:, k] = rates[riders.index(name)]
+                continue
             par[:, k] = self._parameter_derivative(x, values, name, f, spans[k] if spans else None, b"".join(sides[:1]))
         self._writer.write(self.parameters, values)
         if self._held:
             mass = self._evaluator.mass(x)
             jac = jac - rigid.rate(jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
         return Linearization(f, jac, par)
+
+    def _with_riders(self, x: Array, values: Values, moved: Array, riders: Sequence[str]) -> tuple[Array, Array]:
+        """Return forces at x and at `moved`, and their rates (len(riders), nv) in controls that ride in the batch."""
+        count = 1 + len(moved)
+        states = np.empty((count + len(riders), self.nq))
+        states[:], states[1:count] = x, moved
+        if not riders:
+            return self._evaluator.forces(states), states[:0]
+        ctrl = np.empty((len(states), self._model.nu))
+        ctrl[:], steps = self._writer.inputs.ctrl, []
+        for k, name in enumerate(riders, count):
+            steps.append(self.parameter_stencil(name, values[name])[1])
+            for target in self.parameters[name].targets:
+                ctrl[k, target.index] += target.factor * steps[-1]
+        rows = self._evaluator.forces(states, ctrl=ctrl)
+        return rows[:count], (rows[count:] - rows[0]) / np.array(steps)[:, None]
 
     def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""
@@ -261,6 +280,21 @@ class Mechanism:
             # critical damping: a held mode decays and can never look unstable or marginal
             damping = damping + 2.0 * rigid.rate(jac, mass) * rigid.holding(mass, self._held_directions(x))
         return Pencil(mass, damping, -jac)
+
+    @property
+    def passive(self) -> bool:
+        """Whether damping at rest is symmetric and positive semidefinite in every state, as `features.passive` tells."""
+        return self._passive and not self.nonsmooth
+
+    def pencils(self, states: Array, values: Sequence[Values], jacs: Sequence[Array]) -> list[Pencil]:
+        """Return `pencil` at many equilibria of a passive mechanism."""
+        loads = {n for n, p in self.parameters.items() if p.kind in ("control", "gravity")}
+        first = values[0]
+        if self._held or any(v[n] != first[n] for v in values for n in first.keys() - loads):
+            return [self.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]
+        self._writer.write(self.parameters, first)
+        dampings = self._evaluator.dampings(np.asarray(states), self.state_scale)
+        return [Pencil(self._evaluator.mass(x), c, -j) for x, c, j in zip(states, dampings, jacs, strict=True)]
 
     def first_order(self, x: Array, values: Values, steps: Array) -> Array:
         """Return (v, qacc) at steps (m, 2 nv) of position and velocity around rest at x, shape (m, 2 nv)."""

@@ -24,13 +24,19 @@ class Rows:
         self._version = -1
         self._qpos = self._batch.bind("qpos")
         self._qvel = self._batch.bind("qvel")
+        self._ctrl = self._batch.bind("ctrl")
         self._inputs: list[tuple[Array, Array]] | None = None
         self._forces = self._batch.bind("qfrc_smooth")
         self._acceleration = self._batch.bind("qacc")
         self._told_apart = {f: self._batch.bind(f) for f in kinks.fields} if kinks is not None else {}
 
-    def forward(self, qpos: Array, qvel: Array | None, writer: FieldWriter) -> Array:
-        """Evaluate the rows' states with the writer's inputs and return qfrc_smooth, a live view (m, nv)."""
+    def forward(
+        self, qpos: Array, qvel: Array | None, writer: FieldWriter, ctrl: Array | None = None
+    ) -> Array:
+        """Evaluate the rows' states with the writer's inputs and return qfrc_smooth, a live view (m, nv).
+
+        `ctrl` (m, nu) takes the place of the writer's controls.
+        """
         if self._version != writer.version:
             self._batch.set_models(self._model)
             self._version = writer.version
@@ -39,6 +45,8 @@ class Rows:
         if self._inputs is None:
             self._inputs = writer.inputs.bound(self._batch)
         writer.inputs.put_rows(self._inputs)
+        if ctrl is not None:
+            self._ctrl[:] = ctrl
         self._batch.forward()
         return self._forces
 

@@ -73,10 +73,11 @@ class FieldWriter:
         self._last: dict[str, float] | None = None
         self._groups: dict[str, tuple[str, ...]] = {}
         self._grouped = 0
+        self._alone: dict[str, bool] = {}
 
     def write(self, parameters: Mapping[str, Parameter], values: Mapping[str, float]) -> None:
         """Make the model have `values`; names that are left out have the model's own."""
-        if values == self._last and len(parameters) == self._known:
+        if len(parameters) == self._known and self._last is not None and self._moves_a_control(parameters, values):
             return
         if not values.keys() <= parameters.keys():
             raise unknown_name("parameter", next(n for n in values if n not in parameters), parameters)
@@ -94,6 +95,36 @@ class FieldWriter:
             raise
         self._last = dict(values)
 
+    def _moves_a_control(self, parameters: Mapping[str, Parameter], values: Mapping[str, float]) -> bool:
+        """Do the least where nothing has changed, or one control that no other parameter shares; whether that was it."""
+        last = self._last
+        assert last is not None
+        if values == last:
+            return True
+        if values.keys() != last.keys():
+            return False
+        changed = [n for n, v in values.items() if last[n] != v]
+        if len(changed) != 1:
+            return False
+        name = changed[0]
+        if not self.alone(parameters, name):
+            return False
+        last[name] = self._written[name] = value = values[name]
+        parameter = parameters[name]
+        if value == parameter.value:
+            self._restore(parameter)
+            return True
+        for target in parameter.targets:
+            self.inputs.write("ctrl", list(target.index), target.entry(value))
+        return True
+
+    def alone(self, parameters: Mapping[str, Parameter], name: str) -> bool:
+        """Whether a parameter is a control that nothing else depends on."""
+        if name not in self._alone:
+            alone = parameters[name].kind == "control" and self._group(parameters, name) == (name,)
+            self._alone[name] = alone and not self.inputs.followed
+        return self._alone[name]
+
     def _forget(self) -> None:
         self._written.clear()
         self._last, self._base = None, {}
@@ -101,7 +132,8 @@ class FieldWriter:
     def _rebase(self, parameters: Mapping[str, Parameter], new: Mapping[str, float]) -> bool:
         """Give the model the geometry that the spec compiles to; return whether it does compile."""
         wanted = {n: new[n] for n, p in parameters.items() if p.kind == "spec"}
-        self._known = len(parameters)
+        if self._known != len(parameters):
+            self._known, self._alone = len(parameters), {}
         if wanted == self._base:
             return True
         self._forget()
@@ -140,7 +172,7 @@ class FieldWriter:
     def _group(self, parameters: Mapping[str, Parameter], name: str) -> tuple[str, ...]:
         """Return the parameters that share entries with `name`, directly or through others, as declared."""
         if self._grouped != len(parameters):
-            self._groups, self._grouped = {}, len(parameters)
+            self._groups, self._grouped, self._alone = {}, len(parameters), {}
         if name not in self._groups:
             entries, group, grown = set(parameters[name].entries), {name}, True
             while grown:

@@ -50,6 +50,10 @@ def jacobian_steps(scale: Array, rule: Stencil) -> Array:
 def jacobian_from_rows(rows: Array, scale: Array, rule: Stencil) -> Array:
     """Combine f at `jacobian_steps` into df/dx, (n_f, n)."""
     n = len(scale)
+    if len(rule.offsets) == 2:
+        difference = rows[:n] - rows[n:]
+        difference *= (rule.weights[0] / (rule.step * scale))[:, None]
+        return np.ascontiguousarray(difference.T)
     blocks = rows.reshape(len(rule.offsets), n, -1)
     columns = np.tensordot(np.asarray(rule.weights), blocks, axes=1) / (rule.step * scale)[:, None]
     return np.ascontiguousarray(columns.T)
