@@ -21,7 +21,7 @@ from benchmarks.points import Floor, growth, per_point, split
 
 _US = 1e6
 # weight of the parameter in AUTO's arclength, and its largest step, of the size that its own demos use
-_WEIGHTS = {"overcentre": 1 / 30.0, "nose gear": 1 / 8e5, "nose gear full": 1 / 60.0, "ab": 1.0}
+_WEIGHTS = {"overcentre": 1 / 60.0, "overcentre 1e+06": 1 / 60.0, "nose gear": 1 / 8e5, "nose gear full": 1 / 60.0, "ab": 1.0}
 _DS_MAX = 0.1
 
 
@@ -69,7 +69,7 @@ def main() -> None:
     given = parser.parse_args()
     auto = auto_peer.missing()
     result: dict[str, Any] = {"machine": machine(), "skipped": [s for s in (auto, peers.pycont_missing()) if s]}
-    mechanisms = [cases.overcentre(), cases.gear(), cases.full_gear()]
+    mechanisms = [cases.overcentre(), cases.overcentre(1e6), cases.gear(), cases.full_gear()]
     result["points [us]"] = {c.name: mechanism_points(c, given.repeats, auto) for c in mechanisms}
     result["points [us]"]["ab"] = plain_points(cases.reaction(), given.repeats, auto)
     links = cases.LINKS[:3] if given.quick else cases.LINKS

@@ -15,7 +15,6 @@ import numpy as np
 
 import mjcont as mc
 from benchmarks.cases import Case
-from mjcont.writer import FieldWriter, Gravity
 
 FOLDER = Path("/usr/lib/auto-07p")
 SOURCES = Path(__file__).parent / "auto"
@@ -89,10 +88,10 @@ class AutoPeer:
     def _prepare(self) -> None:
         """Write the model and the start."""
         case, mechanism = self.case, self.case.problem
-        start = mc.find_equilibrium(mechanism, dict(case.start), keyframe=case.keyframe)
+        start = case.start
         model: Any = mechanism.simulation_model()
         model.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
-        writer = FieldWriter(model, mechanism.parameters, Gravity.of(model))
+        writer = mechanism.writer(model)
         writer.write(mechanism.parameters, {**start.parameters, case.parameter: 0.0})
         mujoco.mj_saveModel(model, str(self.folder / "model.mjb"))
         control = next(i for t in mechanism.parameters[case.parameter].targets for i in t.index)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import mjcont as mc
@@ -22,8 +22,7 @@ class Case:
     problem : Mechanism or VectorField
     parameter : str
     bounds : tuple of float
-    start : dict of parameter values
-    keyframe : str, optional
+    start : equilibrium from which it is followed, found beforehand for mjcont and its peers alike
     watched : str
         The column whose chord error counts as the diagram's accuracy.
     direction : int or None
@@ -33,47 +32,44 @@ class Case:
     problem: Any
     parameter: str
     bounds: tuple[float, float]
-    start: Mapping[str, float] = field(default_factory=dict)
-    keyframe: str | None = None
+    start: mc.Point
     watched: str = ""
     direction: int | None = None
 
     def run(self, **options: Any) -> mc.Branch:
         """Compute the branch."""
         return mc.continue_equilibria(
-            self.problem,
-            self.parameter,
-            self.bounds,
-            dict(self.start),
-            keyframe=self.keyframe,
-            direction=self.direction,
-            **options,
+            self.problem, self.parameter, self.bounds, self.start, direction=self.direction, **options
         )
 
 
-def overcentre() -> Case:
-    """Return the overcentre mechanism, six degrees of freedom, bushes of 1e6 N/m."""
+def overcentre(stiffness: float = 1e3) -> Case:
+    """Return the overcentre mechanism, six degrees of freedom, with bushes of the model's stiffness or another."""
     mechanism = mc.Mechanism.from_xml("overcentre")
-    return Case("overcentre", mechanism, "F", (-30.0, 30.0), {"k_j": 1e6, "F": 0.0}, watched="theta_1")
+    start = mc.find_equilibrium(mechanism, {"k_j": stiffness, "F": 0.0})
+    name = "overcentre" if stiffness == 1e3 else f"overcentre {stiffness:.0e}"
+    return Case(name, mechanism, "F", (-30.0, 30.0), start, "theta_1")
 
 
 def gear() -> Case:
     """Return the nose gear of five degrees of freedom at a gravity angle of -20 degrees."""
     mechanism = mc.Mechanism.from_xml("nose_gear")
-    start = {"F_ret": 4e5, "gravity_angle": math.radians(-20.0)}
-    return Case("nose gear", mechanism, "F_ret", (0.0, 8e5), start, "uplock_above", "theta_ov")
+    values = {"F_ret": 4e5, "gravity_angle": math.radians(-20.0)}
+    start = mc.find_equilibrium(mechanism, values, keyframe="uplock_above")
+    return Case("nose gear", mechanism, "F_ret", (0.0, 8e5), start, "theta_ov")
 
 
 def full_gear() -> Case:
     """Return the nose gear of fifteen degrees of freedom."""
     mechanism = mc.Mechanism.from_xml("nose_gear_full")
-    return Case("nose gear full", mechanism, "F_ret", (0.0, 60.0), {"F_ret": 20.0}, "uplock_above", "theta_ov")
+    start = mc.find_equilibrium(mechanism, {"F_ret": 20.0}, keyframe="uplock_above")
+    return Case("nose gear full", mechanism, "F_ret", (0.0, 60.0), start, "theta_ov")
 
 
 def chain(links: int) -> Case:
     """Return an elastic cantilever of equal links, bent by a force at its tip across its axis."""
     mechanism = mc.Mechanism.from_xml(chain_xml(links))
-    return Case(f"chain {links}", mechanism, "P", (0.0, 6.0), {"P": 0.1}, watched="turn0", direction=1)
+    return Case(f"chain {links}", mechanism, "P", (0.0, 6.0), mc.find_equilibrium(mechanism), "turn0", direction=1)
 
 
 def chain_xml(links: int) -> str:
@@ -105,4 +101,4 @@ def reaction() -> Case:
         return [conversion - u[0], p["B"] * conversion - (1.0 + 3.0) * u[1]]
 
     problem = mc.VectorField(rhs, [0.0, 0.0], {"D": 0.0, "B": 14.0}, name="ab")
-    return Case("ab", problem, "D", (0.0, 0.4), watched="u1", direction=1)
+    return Case("ab", problem, "D", (0.0, 0.4), mc.find_equilibrium(problem), "u[0]", direction=1)

@@ -17,9 +17,9 @@ def root_stepping(case: Case, steps: int = 200) -> float:
     It stops at the first fold, where natural-parameter stepping cannot go on.
     """
     problem = case.problem
-    values = dict(problem.values(case.start))
+    values = dict(case.start.parameters)
     low, high = case.bounds
-    x = problem.start_state()
+    x = case.start.state
     done = 0
 
     def residual(u: np.ndarray) -> np.ndarray:
@@ -47,7 +47,7 @@ def pycont(case: Case) -> float:
     import pycont
 
     problem, (low, high) = case.problem, case.bounds
-    values = dict(problem.values(case.start))
+    values = dict(case.start.parameters)
 
     def residual(u: np.ndarray, p: float) -> np.ndarray:
         return problem.residual(u, {**values, case.parameter: float(p)})
@@ -56,7 +56,7 @@ def pycont(case: Case) -> float:
 
     def run() -> None:
         result = pycont.arclengthContinuation(
-            residual, problem.start_state(), low, 1e-6, 0.1, 0.01, 500,
+            residual, case.start.state, low, 1e-6, 0.1, 0.01, 500,
             solver_parameters={"param_max": high, "initial_directions": "increase_p"}, verbosity="OFF",
         )
         kept.append(sum(len(b.p_path) for b in result.branches))

@@ -82,6 +82,10 @@ class Leg:
         """Return the matrices whose eigenvalues tell stability."""
         return self.problem.pencil(x, self.at(values), jac)
 
+    def pencils(self, states: Sequence[Array], values: Sequence[Values], jacs: Sequence[Any]) -> list[Pencil]:
+        """Return the matrices at many equilibria of a passive problem."""
+        return self.problem.pencils(states, [self.at(v) for v in values], jacs)
+
     def first_order(self, x: Array, values: Values, steps: Array) -> Array:
         """Return the right-hand side of the first-order form."""
         return self.problem.first_order(x, self.at(values), steps)

@@ -283,7 +283,7 @@ class Mechanism:
 
     @property
     def passive(self) -> bool:
-        """Whether damping at rest is symmetric and positive semidefinite in every state, as `features.passive` tells."""
+        """Whether damping at rest is symmetric and positive semidefinite in every state (`features.passive`)."""
         return self._passive and not self.nonsmooth
 
     def pencils(self, states: Array, values: Sequence[Values], jacs: Sequence[Array]) -> list[Pencil]:

@@ -96,7 +96,7 @@ class FieldWriter:
         self._last = dict(values)
 
     def _moves_a_control(self, parameters: Mapping[str, Parameter], values: Mapping[str, float]) -> bool:
-        """Do the least where nothing has changed, or one control that no other parameter shares; whether that was it."""
+        """Do the least where nothing has changed, or one control that is alone; return whether that was it."""
         last = self._last
         assert last is not None
         if values == last:

@@ -15,7 +15,7 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.bordered import Factored, border, null_vectors
-from mjcont.numerics.newton import Corrected, correct, undefined, with_row
+from mjcont.numerics.newton import Corrected, correct, length, undefined, with_row
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Local, System
@@ -129,10 +129,10 @@ def predict(point: CurvePoint, h: float) -> Array:
     if point.back is None:
         return h * point.tangent
     chord, before = point.back
-    length = float(np.linalg.norm(chord))
-    bend = chord + length * point.tangent
-    cubic = (before - point.tangent + 2.0 * bend / length) / length**2
-    return h * point.tangent + h**2 * (bend / length**2 + cubic * length) + h**3 * cubic
+    size = length(chord)
+    bend = (chord + size * point.tangent) / size**2
+    cubic = (before - point.tangent) / size**2 + (2.0 / size) * bend
+    return h * point.tangent + h**2 * (bend + size * cubic) + h**3 * cubic
 
 
 def _matrix_ahead(point: CurvePoint, h: float) -> Array:
@@ -161,18 +161,20 @@ def advance(
     `fresh` takes derivatives at the prediction instead of those of the last point: dearer, but with stiff bushes
     the soft direction turns by more than the last point's derivatives can tell.
     """
-    x, y = system.move(point.x, point.y, system.admissible(point.x, predict(point, h)))
+    prediction = system.admissible(point.x, predict(point, h))
+    x, y = system.move(point.x, point.y, prediction)
     extrapolated = not (fresh or system.conditions or sparse.issparse(point.jac))
     expected = _TRUST * point.rate if extrapolated and len(point.past) == _PAST else math.inf
     lu = None if fresh else Factored(with_row(_matrix_ahead(point, h) if extrapolated else point.jac, point.tangent))
     c = correct(system, x, y, point.tangent, lu, settings, expected)
     if c.failure:
         return c.failure
-    wandered = float(np.linalg.norm(system.difference(c.x, c.y, x, y)))
+    chord = system.difference(c.x, c.y, point.x, point.y)
+    wandered = length(chord - prediction)
     if wandered > _WANDER * abs(h):
         return "the corrector wandered off the prediction"
     new = point_from(c, point.tangent, point.s + abs(h))
-    new.back = (system.difference(point.x, point.y, new.x, new.y), point.tangent)
+    new.back = (-chord, point.tangent)
     if extrapolated:
         new.past = ((point.s, point.jac), *point.past[: _PAST - 1])
     if new.angle > settings.angle_max:
@@ -195,7 +197,8 @@ def may_turn_twice(system: System, old: CurvePoint, new: CurvePoint, index: int)
     a, b = old.tangent[i], new.tangent[i]
     if a * b <= 0:
         return False
-    mean = system.difference(new.x, new.y, old.x, old.y)[i] / (new.s - old.s)
+    chord = system.difference(new.x, new.y, old.x, old.y) if new.back is None else -new.back[0]
+    mean = chord[i] / (new.s - old.s)
     # derivative of the cubic: a + 2 (3 mean - 2 a - b) t + 3 (a + b - 2 mean) t^2
     p, q = 3.0 * mean - 2.0 * a - b, 3.0 * (a + b - 2.0 * mean)
     t = -p / q if q else -1.0

@@ -76,7 +76,11 @@ def matrix_with_row(system: System, local: Local, y: Array, row: Array | None) -
 
 def _newton_step(system: System, local: Local, y: Array, lu: Factored, row: Array | None) -> tuple[Array, Array]:
     r = system.residual(local, y)
-    return -lu.solve(r if row is None else np.append(r, 0.0)), r
+    if row is not None:
+        padded = np.zeros(len(r) + 1)
+        padded[:-1] = r
+        return -lu.solve(padded), r
+    return -lu.solve(r), r
 
 
 def _broyden(step: Array, steps: list[Array]) -> Array:

@@ -145,12 +145,13 @@ def conservative_spectra(pencils: Sequence[Pencil]) -> list[Spectrum]:
 
 def _conservative(mass: Array, damping: Array, stiffness: Array) -> list[Spectrum]:
     """Classify by the inertia of K; the damping only decides whether a mode with positive K is damped."""
-    all_values = quadratic_eigenvalues(mass, damping, stiffness)
+    every = quadratic_eigenvalues(mass, damping, stiffness).astype(complex)
+    order = np.lexsort((every.imag, -every.real))
+    all_values = np.take_along_axis(every, order, axis=-1)
     lower = np.linalg.inv(np.linalg.cholesky(mass))
     all_squares = np.linalg.eigvalsh(lower @ stiffness @ lower.transpose(0, 2, 1))
     found = []
-    for m, k, values, squares in zip(mass, stiffness, all_values, all_squares, strict=True):
-        ev = _sorted(values)
+    for m, k, ev, squares in zip(mass, stiffness, all_values, all_squares, strict=True):
         noise = _DIFFERENCE_NOISE * np.abs(k).max() / np.diag(m).max()
         negative = int(np.count_nonzero(squares < -noise))
         rounding = _ROUNDING * float(np.abs(ev).max(initial=0.0))
@@ -159,10 +160,6 @@ def _conservative(mass: Array, damping: Array, stiffness: Array) -> list[Spectru
         state = UNSTABLE if negative else MARGINAL if touching else STABLE
         found.append(Spectrum(ev, state, negative, margin, True))
     return found
-
-
-def _sorted(ev: Array) -> Array:
-    return ev[np.lexsort((ev.imag, -ev.real))].astype(complex)
 
 
 def _classify(ev: Array, noise: Array, *, conservative: bool) -> Spectrum:

@@ -215,12 +215,14 @@ class System:
 
     def residual(self, local: Local, y: Array) -> Array:
         """Return G, (equations,)."""
+        if not self.conditions:
+            return local.f
         parts = [local.f]
         for c, aux in zip(self.conditions, self._aux(y), strict=True):
             if c.unfolds:
                 parts[0] = parts[0] + aux[0] * c.direction  # type: ignore[attr-defined]
             parts.append(c.value(local, aux))
-        return np.concatenate(parts) if len(parts) > 1 else parts[0]
+        return np.concatenate(parts)
 
     def jacobian(self, local: Local, y: Array) -> Any:
         """Return dG in scaled unknowns, (equations, n + k)."""
@@ -296,7 +298,11 @@ class System:
 
     def difference(self, x1: Array, y1: Array, x0: Array, y0: Array) -> Array:
         """Return the scaled step from (x0, y0) to (x1, y1), (n + k,)."""
-        return np.concatenate([self.problem.difference(x1, x0) / self.problem.state_scale, y1 - y0])
+        step = np.empty(self.n + self.k)
+        step[: self.n] = self.problem.difference(x1, x0)
+        step[: self.n] /= self.problem.state_scale
+        step[self.n :] = y1 - y0
+        return step
 
     def update(self, local: Local, y: Array) -> None:
         """Renew the conditions' borders at a solution."""
