@@ -20,7 +20,7 @@ STAMP_TEXT = printf '%s\n' "$(CURDIR)" "$(PYTHON)"
 FRESH := $(shell $(BIN)/python -c 'import pip' 2>/dev/null && $(STAMP_TEXT) | cmp -s - $(STAMP) && echo yes)
 
 .DEFAULT_GOAL := help
-.PHONY: help env reproduce reproduce-fast test test-long thirdparty test-thirdparty clean FORCE
+.PHONY: help env reproduce reproduce-fast test test-long thirdparty test-thirdparty bench clean FORCE
 
 help: ## list these targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 # \2/p' $(MAKEFILE_LIST) | awk -F' # ' '{ printf "%-23s %s\n", $$1, $$2 }'
@@ -46,6 +46,9 @@ thirdparty: env ## download models from other packages, in .thirdparty
 
 test-thirdparty: thirdparty ## the tests on models that none of us wrote
 	$(BIN)/pytest -q -n auto -m thirdparty
+
+bench: env ## measure speed beside a floor and peers, in out/benchmarks.json (minutes)
+	$(BIN)/python -m benchmarks -o out/benchmarks.json
 
 clean: ## remove .venv, builds and caches; results in out/ stay
 	@if test -e $(STAMP) || test -e $(UNFINISHED); then rm -f $(STAMP) && rm -rf $(VENV); fi

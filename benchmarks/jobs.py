@@ -27,7 +27,8 @@ def import_time() -> float:
 
 def command(*arguments: str) -> float:
     """Return how long a mjcont command takes, in s."""
-    return seconds(lambda: subprocess.run([sys.executable, "-m", "mjcont", *arguments], check=True, capture_output=True))
+    call = [sys.executable, "-m", "mjcont", *arguments]
+    return seconds(lambda: subprocess.run(call, check=True, capture_output=True))
 
 
 def inspect() -> float:

@@ -20,20 +20,21 @@ import mujoco
 import numpy as np
 
 from mjcont import features, loading, rigid
+from mjcont.derivatives import Derivatives
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.evaluation import Evaluator
 from mjcont.geometry import Geometry, refuse_overlap
 from mjcont.mjcf import exact_text
-from mjcont.numerics.differences import FORWARD, Stencil, jacobian_from_rows, jacobian_steps, stencil
+from mjcont.numerics.differences import Stencil
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
 from mjcont.observables import model_observables
 from mjcont.parameters import Declaration, collect_parameters, declared_parameter
 from mjcont.paths import bush_names
 from mjcont.quantities import Observable, Parameter
-from mjcont.sides import difference_rule, one_sided, parameter_rate
 from mjcont.writer import FieldWriter
 
-_OWNED = ("_loaded", "_observed", "_model", "_writer", "_sensor_writer", "_sensor_data", "_evaluator", "nonsmooth")
+_OWNED = ("_loaded", "_observed", "_model", "_writer", "_sensor_writer", "_sensor_data", "_evaluator", "nonsmooth",
+          "_derivatives")
 
 
 class Mechanism:
@@ -90,7 +91,6 @@ class Mechanism:
         self.constrained, self._passive = loading.is_constrained(model), features.passive(model)
         self._held: tuple[str, ...] = ()
         self._kin: WeakSet[Mechanism] = WeakSet((self,))  # this and its copies with held modes: one set of models
-        self._beside = ""  # why the model does not compile at a point of the last stencil
         self._own(self._geometry.with_layout(model, self.parameters))
 
     def _own(self, model: mujoco.MjModel, evaluations: int = 0) -> None:
@@ -100,6 +100,9 @@ class Mechanism:
         self._sensor_data = mujoco.MjData(self._observed)
         self._evaluator = Evaluator(self._model, self._writer, self.constrained, evaluations)
         self.nonsmooth = self._evaluator.nonsmooth
+        self._derivatives = Derivatives(
+            self._evaluator, self._writer, self.parameters, self.state_scale, self._moved
+        )
         for other in self._kin:
             other.__dict__.update({name: self.__dict__[name] for name in _OWNED})
 
@@ -218,59 +221,16 @@ class Mechanism:
     ) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
         refuse_overlap(self.parameters, values, tuple(wrt))
-        rule, self._beside = stencil(accurate), ""
-        steps = jacobian_steps(self.state_scale, rule)
-        self._writer.write(self.parameters, values)
-        riders = () if self.nonsmooth else tuple(n for n in wrt if self._writer.alone(self.parameters, n))
-        rows, rates = self._with_riders(x, values, self._moved(x, steps), riders)
-        f, sides = rows[0].copy(), self._evaluator.sides
-        jac = jacobian_from_rows(rows[1:], self.state_scale, rule)
-        if sides and not self.failure:
-            jac = one_sided(jac, rows, sides, steps, lambda finer: self._pieces(x, finer))
-        par = np.empty((self.n, len(wrt)))
-        for k, name in enumerate(wrt):
-            if name in riders:
-                par[:, k] = rates[riders.index(name)]
-                continue
-            par[:, k] = self._parameter_derivative(x, values, name, f, spans[k] if spans else None, b"".join(sides[:1]))
-        self._writer.write(self.parameters, values)
-        if self._held:
-            mass = self._evaluator.mass(x)
-            jac = jac - rigid.rate(jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
-        return Linearization(f, jac, par)
-
-    def _with_riders(self, x: Array, values: Values, moved: Array, riders: Sequence[str]) -> tuple[Array, Array]:
-        """Return forces at x and at `moved`, and their rates (len(riders), nv) in controls that ride in the batch."""
-        count = 1 + len(moved)
-        states = np.empty((count + len(riders), self.nq))
-        states[:], states[1:count] = x, moved
-        if not riders:
-            return self._evaluator.forces(states), states[:0]
-        ctrl = np.empty((len(states), self._model.nu))
-        ctrl[:], steps = self._writer.inputs.ctrl, []
-        for k, name in enumerate(riders, count):
-            steps.append(self.parameter_stencil(name, values[name])[1])
-            for target in self.parameters[name].targets:
-                ctrl[k, target.index] += target.factor * steps[-1]
-        rows = self._evaluator.forces(states, ctrl=ctrl)
-        return rows[:count], (rows[count:] - rows[0]) / np.array(steps)[:, None]
+        found = self._derivatives.linearize(x, values, wrt, accurate, spans)
+        if not self._held:
+            return found
+        mass = self._evaluator.mass(x)
+        held = rigid.rate(found.jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
+        return Linearization(found.f, found.jac - held, found.par)
 
     def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""
-        return difference_rule(self.parameters[name], value, span)
-
-    def _parameter_derivative(
-        self, x: Array, values: Values, name: str, f: Array, span: float | None, side: bytes
-    ) -> Array:
-        """Return d tau/dp, (nv,); `f` is the residual at x, on the smooth piece `side`."""
-
-        def at(offset: float) -> tuple[Array, bytes]:
-            self._writer.write(self.parameters, {**values, name: values[name] + offset})
-            self._beside = self._beside or self._writer.failure
-            return self._evaluator.forces(x[None])[0], b"".join(self._evaluator.sides)
-
-        rule, h = self.parameter_stencil(name, values[name], span)
-        return parameter_rate(at, f, side, FORWARD if self.parameters[name].affine else rule, h)
+        return self._derivatives.rule(name, value, span)
 
     def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
         """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
@@ -359,9 +319,6 @@ class Mechanism:
             return x + steps
         return np.array([self.retract(x, s) for s in steps])
 
-    def _pieces(self, x: Array, steps: Array) -> tuple[Array, list[bytes]]:
-        return self._evaluator.forces(self._moved(x, steps)).copy(), self._evaluator.sides
-
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""
         self._writer.write(self.parameters, values)
@@ -370,7 +327,7 @@ class Mechanism:
     @property
     def failure(self) -> str:
         """Why the model does not compile at the values evaluated last; empty where it does."""
-        return self._writer.failure or self._beside
+        return self._writer.failure or self._derivatives.failure
 
     @property
     def evaluations(self) -> int:

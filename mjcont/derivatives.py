@@ -1,0 +1,94 @@
+"""Derivatives of a model's forces by differences: all columns of df/dx in one batch, loads riding along."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mjcont.evaluation import Evaluator
+from mjcont.numerics.differences import FORWARD, Stencil, jacobian_from_rows, jacobian_steps, stencil
+from mjcont.numerics.problem import Array, Linearization, Values
+from mjcont.quantities import Parameter
+from mjcont.sides import difference_rule, one_sided, parameter_rate
+from mjcont.writer import FieldWriter
+
+
+@dataclass(slots=True)
+class Derivatives:
+    """Differences of the forces that an evaluator computes.
+
+    Attributes
+    ----------
+    scale : (nv,) typical size of each tangent coordinate.
+    moved : from a state and tangent steps (m, nv) to states (m, nq).
+    failure : why the model does not compile at a point of the last stencil; empty if it does.
+    """
+
+    evaluator: Evaluator
+    writer: FieldWriter
+    parameters: Mapping[str, Parameter]
+    scale: Array
+    moved: Callable[[Array, Array], Array]
+    failure: str = ""
+
+    def linearize(
+        self, x: Array, values: Values, wrt: Sequence[str], accurate: bool, spans: Sequence[float]
+    ) -> Linearization:
+        """Return the forces with their derivatives in the state and in the parameters `wrt`."""
+        rule, self.failure = stencil(accurate), ""
+        steps = jacobian_steps(self.scale, rule)
+        self.writer.write(self.parameters, values)
+        smooth = not self.evaluator.nonsmooth
+        riders = [n for n in wrt if smooth and self.writer.alone(self.parameters, n)]
+        rows, rates = self._with_riders(x, values, self.moved(x, steps), riders)
+        f, sides = rows[0].copy(), self.evaluator.sides
+        jac = jacobian_from_rows(rows[1:], self.scale, rule)
+        if sides and not self.writer.failure:
+            jac = one_sided(jac, rows, sides, steps, lambda finer: self._pieces(x, finer))
+        if len(riders) == len(wrt):
+            return Linearization(f, jac, rates.T)
+        par = np.empty((len(f), len(wrt)))
+        for k, name in enumerate(wrt):
+            if name in riders:
+                par[:, k] = rates[riders.index(name)]
+            else:
+                par[:, k] = self._in_parameter(x, values, name, f, spans[k] if spans else None, b"".join(sides[:1]))
+        self.writer.write(self.parameters, values)
+        return Linearization(f, jac, par)
+
+    def _with_riders(self, x: Array, values: Values, moved: Array, riders: Sequence[str]) -> tuple[Array, Array]:
+        """Return forces at x and at `moved`, and their rates (len(riders), nv) in controls that ride in the batch."""
+        count = 1 + len(moved)
+        states = np.empty((count + len(riders), len(x)))
+        states[:], states[1:count] = x, moved
+        if not riders:
+            return self.evaluator.forces(states), np.empty((0, len(self.scale)))
+        ctrl = np.empty((len(states), self.evaluator.model.nu))
+        ctrl[:] = self.writer.inputs.ctrl
+        steps = []
+        for k, name in enumerate(riders, count):
+            steps.append(self.rule(name, values[name])[1])
+            for target in self.parameters[name].targets:
+                ctrl[k, target.index] += target.factor * steps[-1]
+        rows = self.evaluator.forces(states, ctrl=ctrl)
+        return rows[:count], (rows[count:] - rows[0]) / np.array(steps)[:, None]
+
+    def rule(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
+        """Return the difference rule and step for derivatives in a parameter."""
+        return difference_rule(self.parameters[name], value, span)
+
+    def _in_parameter(self, x: Array, values: Values, name: str, f: Array, span: float | None, side: bytes) -> Array:
+        """Return d forces/dp, (nv,); `f` are the forces at x, on the smooth piece `side`."""
+
+        def at(offset: float) -> tuple[Array, bytes]:
+            self.writer.write(self.parameters, {**values, name: values[name] + offset})
+            self.failure = self.failure or self.writer.failure
+            return self.evaluator.forces(x[None])[0], b"".join(self.evaluator.sides)
+
+        rule, h = self.rule(name, values[name], span)
+        return parameter_rate(at, f, side, FORWARD if self.parameters[name].affine else rule, h)
+
+    def _pieces(self, x: Array, steps: Array) -> tuple[Array, list[bytes]]:
+        return self.evaluator.forces(self.moved(x, steps)).copy(), self.evaluator.sides
