@@ -16,6 +16,7 @@ from mjcont.numerics.system import Local, System
 
 _SLOW = 0.5
 _FIRST, _LATER = 1e5, 1e2
+_POLISH = 3
 _DIVERGING = 2.0
 _NOISE = 1e-6
 _LARGEST_ERROR = 1e-7
@@ -148,15 +149,15 @@ def correct(
             lu = None
     if failure:
         return Corrected(x, y, local, lu, iterations, ratio, size, np.inf, failure)
-    jac = system.jacobian(local, y)
-    factored = Factored(with_row(jac, row))
-    step, _ = _newton_step(system, local, y, factored, row)
-    x, y = system.move(x, y, step)
-    last, size = size, length(step)
-    if size > settings.tol:  # derivatives are to be those of the point itself
-        local = system.local(x, y)
+    for _ in range(_POLISH):  # derivatives are to be those of the point itself
         jac = system.jacobian(local, y)
         factored = Factored(with_row(jac, row))
+        step, _ = _newton_step(system, local, y, factored, row)
+        x, y = system.move(x, y, step)
+        last, size = size, length(step)
+        if size <= tol:
+            break
+        local = system.local(x, y)
     error = system.error(local, x, y)
     if not error < _LARGEST_ERROR:
         failure = "the corrector stalled away from the curve"
