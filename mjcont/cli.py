@@ -86,7 +86,7 @@ def _inspect(args: argparse.Namespace) -> int:
 
 def _run(args: argparse.Namespace) -> int:
     from mjcont.progress import Reporter, Table
-    from mjcont.study import interrupted, load_study, run_study
+    from mjcont.study import interruption, load_study, run_study
 
     with _warnings_as_lines():
         study = load_study(args.study, friction=args.friction)
@@ -96,14 +96,8 @@ def _run(args: argparse.Namespace) -> int:
         terminal = sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
         reporter = Table(say, sys.stderr if terminal else None)
     results = run_study(study, args.out, reporter)
-    if results and interrupted(results[-1]):
-        plan, skipped = study.plans[len(results) - 1], len(study.plans) - len(results)
-        rest = f"; {skipped} more not computed" if skipped else ""
-        points = f"the {len(results[-1])} points so far" if hasattr(results[-1], "__len__") else "what there is so far"
-        stored = Path(args.out) / f"{plan.name}.h5"
-        held = f"{stored} holds {points}" if stored.is_file() else f"'{plan.name}' has {points}"
-        return _complain(f"interrupted: {held}{rest}", INTERRUPTED)
-    return OK
+    ended = interruption(study, results, args.out)
+    return _complain(ended, INTERRUPTED) if ended else OK
 
 
 def _check(args: argparse.Namespace) -> int:

@@ -6,7 +6,7 @@ docs/studies.md describes the files, `plans` reads and checks them, `studyruns` 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ from mjcont.progress import Reporter
 from mjcont.studyruns import Running, compute, curves_of, interrupted, start_of, store_curve, task_line
 
 __all__ = [
-    "BranchPlan", "PlotPlan", "Study", "Task", "check_study", "interrupted", "load_study", "output_folder",
+    "BranchPlan", "PlotPlan", "Study", "Task", "check_study", "interruption", "load_study", "output_folder",
     "run_study", "summary",
 ]
 
@@ -67,6 +67,17 @@ def run_study(study: Study, out: str | Path, reporter: Reporter | None = None) -
             open_plots.remove(plot)
             reporter.plotted(draw(plot, done, folder))
     return results
+
+
+def interruption(study: Study, results: Sequence[Any], out: str | Path) -> str:
+    """Return what there is of a study that the user stopped, a sentence; empty if it went through."""
+    if not results or not interrupted(results[-1]):
+        return ""
+    plan, skipped = study.plans[len(results) - 1], len(study.plans) - len(results)
+    points = f"the {len(results[-1])} points so far" if hasattr(results[-1], "__len__") else "what there is so far"
+    stored = Path(out) / f"{plan.name}.h5"
+    held = f"{stored} holds {points}" if stored.is_file() else f"'{plan.name}' has {points}"
+    return f"interrupted: {held}" + (f"; {skipped} more not computed" if skipped else "")
 
 
 def output_folder(path: str | Path) -> Path:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from mjcont import studykeys as k
+from mjcont import studyrefs as r
 from mjcont.branch import show
 from mjcont.collect import units
 from mjcont.continuation import check_bounds
@@ -83,7 +84,7 @@ def _values(table: Table, key: str, context: Context) -> tuple[float, ...]:
     name, given = table.data.get("parameter"), table.data[key]
     unit, count = context.unit(name), max(len(given), 2) if isinstance(given, list) else 2
     found = table.quantities(key, [unit] * count, "at least two numbers such as [0, 30, 0]") or ()
-    if name in context.mechanism.parameters:
+    if isinstance(name, str) and name in context.mechanism.parameters:
         with k.about(table, key):
             for value in found:
                 context.mechanism.values({name: value})
@@ -190,7 +191,7 @@ _BOUNDS = Key(k.bounds, "`[low, high]`.", otherwise="the parameter's own")
 _START = Key(k.values, "Parameter values at the start, over those of `[parameters]`.", {}, otherwise="none")
 _KEYFRAME = Key(k.keyframe, "The keyframe where the first equilibrium is looked for.", otherwise="the initial pose")
 _STATE = Key(k.state, "The same, as an array of all position coordinates.", otherwise="the initial pose")
-_FROM = Key(k.reference("search", "branch", "locus", "path"),
+_FROM = Key(r.reference("search", "branch", "locus", "path"),
             "A point of an earlier result, such as `\"found:E1\"`, in place of start, keyframe and state.",
             otherwise="none")
 _DIRECTION = Key(k.direction, "`1` or `-1`: only that way, in which the parameter first grows or falls.",
@@ -199,10 +200,10 @@ _ZEROS = Key(k.zeros, "Columns and values whose passing is labelled UZ, such as 
              otherwise="none")
 _SETTINGS = Key(k.settings, "Fields of `mjcont.Settings`: `ds`, `ds_max`, `angle`, `max_points`, ...", {},
                 otherwise="its defaults")
-_POINT = Key(k.reference(*SPECIAL, labels=_LOCATED),
+_POINT = Key(r.reference(*SPECIAL, labels=_LOCATED),
              "The special point, such as `\"equilibria:LP1\"`, or `\"D_1:LP1\"` on the first branch of a diagram `D`.",
              needed=True)
-_BRANCH = Key(k.curve, "The branch; the first of a diagram `D` is `D_1`.", needed=True)
+_BRANCH = Key(r.curve, "The branch; the first of a diagram `D` is `D_1`.", needed=True)
 
 
 def _csv(text: str, default: bool) -> Key:
@@ -236,7 +237,7 @@ DIAGRAM = Kind("diagrams", "Every branch that the starts reach through branch po
                            "They are NAME_1, NAME_2, ..., each with a file.", {
     "name": _NAME, "parameter": _PARAMETER, "bounds": _BOUNDS, "start": _START,
     "keyframes": Key(k.keyframes, "Keyframes to start from as well.", (), otherwise="none"),
-    "from": Key(k.references("search", "branch", "locus", "path"),
+    "from": Key(r.references("search", "branch", "locus", "path"),
                 "Points of earlier results to start from; a search's name stands for all its points.",
                 otherwise="none"),
     "max_branches": Key(k.whole(1), "Branches after which the diagram ends.", 50),
@@ -245,7 +246,7 @@ DIAGRAM = Kind("diagrams", "Every branch that the starts reach through branch po
 
 LOCUS = Kind("loci", "A special point followed in one more parameter (`continue_special`).", {
     "name": _NAME,
-    "point": Key(k.reference(*SPECIAL, labels=CONTINUABLE), _POINT.text, needed=True),
+    "point": Key(r.reference(*SPECIAL, labels=CONTINUABLE), _POINT.text, needed=True),
     "parameter": Key(k.parameter, "The parameter that is freed.", needed=True),
     "bounds": _BOUNDS, "direction": _DIRECTION, "zeros": _ZEROS,
     "csv": _csv("a row a point", False), "settings": _SETTINGS,
@@ -325,7 +326,7 @@ CERTIFICATE = Kind("certificates", "Stability held against simulations beside po
 
 BARRIER = Kind("barriers", "The energy that dislodges a rest, along a branch (`barrier_along`).", {
     "name": _NAME, "branch": _BRANCH,
-    "saddles": Key(k.curves("branch", "diagram"), "Branches on which to look for passes, too.", (), otherwise="none"),
+    "saddles": Key(r.curves("branch", "diagram"), "Branches on which to look for passes, too.", (), otherwise="none"),
     "search": Key(k.flag, "Whether passes are searched for.", True),
     "csv": _csv("a row a rest", True), "png": _png("the barrier against the parameter"),
 })
@@ -334,7 +335,7 @@ PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
     "file": Key(_plot_file, "File name ending in `.png`, `.pdf` or `.svg`, without a folder.", needed=True),
     "x": Key(k.column, "Column: a parameter or an observable.", needed=True),
     "y": Key(k.column, "The same.", needed=True),
-    "branches": Key(k.curves(*CURVES), "Names of branches, diagrams, loci and paths.",
+    "branches": Key(r.curves(*CURVES), "Names of branches, diagrams, loci and paths.",
                     otherwise="all branches and diagrams; if there are none, all loci and paths"),
     "title": Key(k.text, "A string.", ""),
     "labels": Key(k.flag, "`false` leaves out the labels of special points.", True),

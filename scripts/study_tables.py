@@ -39,8 +39,8 @@ def shapes() -> str:
         rows.append(f"| `{name}` | {form.text} | {keys} |")
     return "\n".join([
         "## Inputs", "",
-        "An input of a history is a number, a table `{ times = [0, 1], values = [0, \"5 N\"] }` (linear between, held "
-        "before and", "after), or a shape `{ shape = \"ramp\", from = 0, to = \"5 N\", duration = 2 }`. Times are in s.", "",
+        'An input of a history is a number, a table `{ times = [0, 1], values = [0, "5 N"] }` (linear between, held',
+        'before and after), or a shape `{ shape = "ramp", from = 0, to = "5 N", duration = 2 }`. Times are in s.', "",
         "| shape | | keys |", "|---|---|---|", *rows,
     ])
 
