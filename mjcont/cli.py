@@ -24,6 +24,7 @@ _RESULT_SUFFIXES = (".h5", ".hdf5")
 _EXAMPLES = """examples:
   mjcont inspect overcentre                     what can be continued, what can be read, where to start
   mjcont run studies/overcentre.toml -o out     compute a study's branches, store them, draw its plots
+  mjcont check studies/overcentre.toml          everything that is wrong with a study, before it runs
   mjcont plot out/equilibria.h5 -x F -y theta_1
   mjcont sensitivities out/equilibria.h5 LP1    how that fold moves with masses, lengths, stiffnesses
   mjcont view out/equilibria.h5 --label LP1     that pose in MuJoCo's viewer
@@ -85,7 +86,7 @@ def _inspect(args: argparse.Namespace) -> int:
 
 def _run(args: argparse.Namespace) -> int:
     from mjcont.progress import Reporter, Table
-    from mjcont.study import load_study, run_study
+    from mjcont.study import interruption, load_study, run_study
 
     with _warnings_as_lines():
         study = load_study(args.study, friction=args.friction)
@@ -94,14 +95,21 @@ def _run(args: argparse.Namespace) -> int:
     else:
         terminal = sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
         reporter = Table(say, sys.stderr if terminal else None)
-    branches = run_study(study, args.out, reporter)
-    if branches[-1].interrupted:
-        last = study.branches[len(branches) - 1].name
-        skipped = len(study.branches) - len(branches)
-        rest = f"; {skipped} more not computed" if skipped else ""
-        stored = Path(args.out) / f"{last}.h5"
-        return _complain(f"interrupted: {stored} holds the {len(branches[-1])} points so far{rest}", INTERRUPTED)
-    return OK
+    results = run_study(study, args.out, reporter)
+    ended = interruption(study, results, args.out)
+    return _complain(ended, INTERRUPTED) if ended else OK
+
+
+def _check(args: argparse.Namespace) -> int:
+    from mjcont.study import check_study, summary
+
+    with _warnings_as_lines():
+        study, problems = check_study(args.study, friction=args.friction)
+    for line in problems:
+        print(line, file=sys.stderr)
+    if study is not None:
+        say(summary(study))
+    return USER_ERROR if problems else OK
 
 
 def _plot(args: argparse.Namespace) -> int:
@@ -337,6 +345,10 @@ def _parser() -> argparse.ArgumentParser:
     p.add_argument("-o", "--out", metavar="DIR", default="out", help="folder for results (default: out)")
     p.add_argument("--friction", choices=FRICTION, help=friction_help + " or the study's own")
     p.add_argument("-q", "--quiet", action="store_true", help="print errors only")
+
+    p = command("check", _check, "tell everything that is wrong with a study, and what it would compute")
+    p.add_argument("study", metavar="STUDY.toml")
+    p.add_argument("--friction", choices=FRICTION, help=friction_help + " or the study's own")
 
     p = command("plot", _plot, "draw a diagram of stored branches")
     p.add_argument("files", metavar="FILE.h5", nargs="+")

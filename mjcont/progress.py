@@ -6,10 +6,9 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 if TYPE_CHECKING:
-    from mjcont.branch import Branch
     from mjcont.collect import Found
 
 _CLEAR = "\r\x1b[K"
@@ -25,8 +24,8 @@ class Reporter:
     def point(self, count: int, special: Found | None) -> None:
         """Hear that there are `count` points, the latest of them special where `special` is given."""
 
-    def finished(self, branch: Branch, files: Sequence[Path]) -> None:
-        """Hear that a branch is done and stored in `files`."""
+    def finished(self, result: Any, files: Sequence[Path]) -> None:
+        """Hear that a result is done and stored in `files`."""
 
     def plotted(self, file: Path) -> None:
         """Hear that a plot is stored."""
@@ -74,11 +73,11 @@ class Table(Reporter):
             self._live.write(f"{_CLEAR}{self._name}: {count} points, {now - self._began:.0f} s")
             self._live.flush()
 
-    def finished(self, branch: Branch, files: Sequence[Path]) -> None:
-        """Print the branch's summary and where it is stored."""
+    def finished(self, result: Any, files: Sequence[Path]) -> None:
+        """Print the result's summary and where it is stored."""
         self.stopped()
-        self._say(str(branch))
-        self._say("  written: " + ", ".join(str(f) for f in files) + "\n")
+        self._say(str(result))
+        self._say("  written: " + (", ".join(str(f) for f in files) or "nothing") + "\n")
 
     def plotted(self, file: Path) -> None:
         """Print where the plot is."""
