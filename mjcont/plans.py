@@ -22,6 +22,7 @@ from mjcont.mechanism import Mechanism
 from mjcont.numerics.settings import Settings
 from mjcont.quantities import FRICTION
 from mjcont.schema import Table
+from mjcont.sweepplans import SweepPlan, read_sweep
 
 STUDY_VERSION = 1
 PLOT_SUFFIXES = (".png", ".pdf", ".svg")
@@ -67,6 +68,8 @@ class Study:
     mechanism: Mechanism = field(repr=False)
     branches: tuple[BranchPlan, ...]
     plots: tuple[PlotPlan, ...] = ()
+    sweep: SweepPlan | None = None
+    friction: str = FRICTION[0]
 
 
 def load_study(path: str | Path, *, friction: str | None = None) -> Study:
@@ -78,7 +81,7 @@ def load_study(path: str | Path, *, friction: str | None = None) -> Study:
         If anything is wrong: one line that names the file and the key, with the valid choices.
     """
     root = Table(str(path), _parse(Path(path)))
-    root.only("version", "model", "friction", "parameters", "declare", "branch", "plot")
+    root.only("version", "model", "friction", "parameters", "declare", "branch", "plot", "sweep")
     version = root.integer("version", STUDY_VERSION)
     if version != STUDY_VERSION:
         raise root.error("version", f"this mjcont reads version {STUDY_VERSION}, the file has {version}")
@@ -95,7 +98,8 @@ def load_study(path: str | Path, *, friction: str | None = None) -> Study:
     _refuse_repeats(curves, "name")
     plots = tuple(_plot(table, mechanism, branches) for table in diagrams)
     _refuse_repeats(diagrams, "file")
-    return Study(str(path), mechanism, branches, plots)
+    asked = friction or root.text("friction", FRICTION[0])
+    return Study(str(path), mechanism, branches, plots, read_sweep(root, mechanism, branches), asked)
 
 
 def _parse(path: Path) -> dict[str, Any]:
