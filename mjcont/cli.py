@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from mjcont.errors import MjcontError, ResultFileError
 from mjcont.quantities import FRICTION
+from mjcont.sweepcli import add_arguments
 
 if TYPE_CHECKING:
     from mjcont.branch import Branch, Point
@@ -101,6 +102,14 @@ def _run(args: argparse.Namespace) -> int:
         rest = f"; {skipped} more not computed" if skipped else ""
         stored = Path(args.out) / f"{last}.h5"
         return _complain(f"interrupted: {stored} holds the {len(branches[-1])} points so far{rest}", INTERRUPTED)
+    return OK
+
+
+def _sweep(args: argparse.Namespace) -> int:
+    from mjcont.sweepcli import run
+
+    with _warnings_as_lines():
+        run(args, say)
     return OK
 
 
@@ -220,8 +229,9 @@ def _load(path: str) -> Any:
 def _load_curve(path: str) -> Any:
     """Read a branch, a locus or a load path."""
     result = _load(path)
-    if hasattr(result, "velocities"):
-        raise ResultFileError(f"'{path}' holds a time history: inspect and export take it, this command takes curves")
+    for mark, words in (("velocities", "time history"), ("cases", "sweep")):
+        if hasattr(result, mark):
+            raise ResultFileError(f"'{path}' holds a {words}: inspect and export take it, this command takes curves")
     return result
 
 
@@ -337,6 +347,9 @@ def _parser() -> argparse.ArgumentParser:
     p.add_argument("-o", "--out", metavar="DIR", default="out", help="folder for results (default: out)")
     p.add_argument("--friction", choices=FRICTION, help=friction_help + " or the study's own")
     p.add_argument("-q", "--quiet", action="store_true", help="print errors only")
+
+    p = command("sweep", _sweep, "compute a study's special points for many variants of its model; resumable")
+    add_arguments(p, _positive)
 
     p = command("plot", _plot, "draw a diagram of stored branches")
     p.add_argument("files", metavar="FILE.h5", nargs="+")

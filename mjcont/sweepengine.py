@@ -14,7 +14,15 @@ import signal
 import threading
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    wait,
+)
 from typing import Any
 
 from mjcont.errors import MjcontError
@@ -232,4 +240,6 @@ class Run:
 
     def _cannot(self, error: BaseException) -> MjcontError:
         what = " ".join(f"{type(error).__name__}: {error}".split())
-        return MjcontError(f"the workers are lost ({what}); {len(self.done)} cases are stored: run the same sweep again")
+        return MjcontError(
+            f"the workers are lost ({what}); {len(self.done)} cases are stored: run the same sweep again"
+        )

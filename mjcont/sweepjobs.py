@@ -35,7 +35,7 @@ _HERE = threading.local()  # a Mechanism is not shared between threads
 
 @dataclass(frozen=True, slots=True)
 class PointPlan:
-    """A named special point: `label` on a branch of the study, or on the curve of the point `of` in one more parameter."""
+    """A named point: `label` on a branch of the study, or on the curve of the point `of` in one more parameter."""
 
     name: str
     label: str
@@ -81,7 +81,7 @@ def describe_model(mechanism: Any, names: Sequence[str], friction: str) -> dict[
         If it cannot be rebuilt from text: made from a compiled model, a plain vector field, or with Python functions.
     """
     if getattr(mechanism, "mjcf", None) is None:
-        raise ParameterError("a sweep needs a Mechanism made from XML or a spec: its workers build the model from its text")
+        raise ParameterError("a sweep needs a Mechanism made from XML or a spec: its workers build the model from text")
     for name in names:
         mechanism.parameter(name)
     for name, given in mechanism.declared.items():
@@ -200,7 +200,8 @@ class Worker:
         for name, value in values.items():
             p = self.mechanism.parameter(name)
             if value < 0 <= p.bounds[0]:
-                raise ParameterError(f"{name} = {value:g} is negative, and its bounds are [{p.bounds[0]:g}, {p.bounds[1]:g}]")
+                low, high = p.bounds
+                raise ParameterError(f"{name} = {value:g} is negative, and its bounds are [{low:g}, {high:g}]")
         self.mechanism.values(values)
 
     def _follow(

@@ -127,7 +127,7 @@ def _vary(vary: Table, name: str, mechanism: Mechanism) -> Spread | tuple[float,
             if count < 1:
                 raise table.error("count", f"expected a whole number from 1 on, got {count}")
             assert ends is not None
-            return tuple(float(v) for v in np.linspace(*ends, count))
+            return tuple(float(v) for v in np.linspace(ends[0], ends[1], count))
         width, relative = _width(table, kind, unit)
         centre = table.quantity("centre", unit) if "centre" in table.data else None
         cut = table.quantity("cut", "1") if "cut" in table.data else 3.0

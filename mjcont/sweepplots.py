@@ -22,7 +22,8 @@ def draw_histogram(table: SweepTable, column: Column, ax: Any) -> Any:
     if not len(values):
         axes.set(xlabel=axis_label(column.name, column.unit), ylabel="cases")
         return axes
-    axes.hist(values, bins="auto" if len(values) > 1 else 1, color=COLORS[0], alpha=0.75, edgecolor="white", linewidth=0.4)
+    bins: str | int = "auto" if len(values) > 1 else 1
+    axes.hist(values, bins=bins, color=COLORS[0], alpha=0.75, edgecolor="white", linewidth=0.4)
     for k, point in enumerate(np.percentile(values, (2.5, 50.0, 97.5))):
         label = {0: "2.5 % and 97.5 %", 1: "median"}.get(k)
         axes.axvline(point, color="#333333", linestyle="-" if k == 1 else "--", linewidth=1.0, label=label)

@@ -26,7 +26,6 @@ from mjcont.sweepcluster import make_crew
 from mjcont.sweepengine import Run, Tree
 from mjcont.sweepjobs import (
     NOMINAL,
-    PointPlan,
     describe_model,
     plain_point,
     read_quantity,
@@ -113,7 +112,7 @@ def sweep(
         If something in the arguments does not fit, the folder holds another sweep, or all workers are lost.
     """
     setup = _of_study(what) if isinstance(what, Study) else _of_points(what, vary)
-    changed = {"vary": vary, "design": design, "cases": cases, "seed": seed}
+    changed: dict[str, Any] = {"vary": vary, "design": design, "cases": cases, "seed": seed}
     plan = replace(setup.plan, **{k: v for k, v in changed.items() if v is not None})
     record = setup.record if record is None else tuple(record)
     if len(set(record)) != len(record) or not record:
@@ -198,7 +197,7 @@ def _check_names(setup: _Setup) -> None:
     for i, one in enumerate(plain):
         for other in plain[:i]:
             if not one.entries.isdisjoint(other.entries):
-                raise ParameterError(f"{one.name} acts on the same field of the model as {other.name}: name one of them")
+                raise ParameterError(f"{one.name} and {other.name} act on the same field of the model: name one of them")
 
 
 def _header(setup: _Setup, model: Mapping[str, Any], values: Array) -> dict[str, Any]:
@@ -230,9 +229,10 @@ def _begin(setup: _Setup, model: Mapping[str, Any]) -> dict[str, Any]:
         if name not in points:
             raise ParameterError(f"'{quantity}': a quantity is POINT.NAME, with a point among {', '.join(points)}")
         nominal[quantity] = read_quantity(points, quantity)
-    job = write_job(
-        model, list(setup.plan.vary), points, setup.record, setup.plan.method, setup.plan.points, setup.branches
-    )
+    wanted = {q.partition(".")[0] for q in setup.record}
+    kept = {n: p for n, p in points.items() if n in wanted}
+    plan, names = setup.plan, list(setup.plan.vary)
+    job = write_job(model, names, kept, setup.record, plan.method, plan.points, setup.branches)
     return {"nominal": {**setup.nominal, **nominal}, "job": job, "provenance": provenance(setup.mechanism),
             "study": setup.text}
 

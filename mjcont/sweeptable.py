@@ -111,7 +111,8 @@ class SweepTable:
     def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
         """Write the table as CSV with units in the header, angles in degrees unless told otherwise."""
         more = ("case", "continued from", "status", "message")
-        extra = list(zip(map(int, self.cases), map(int, self.starts), map(str, self.status), self.messages, strict=True))
+        numbers = (map(int, self.cases), map(int, self.starts))
+        extra = list(zip(*numbers, map(str, self.status), self.messages, strict=True))
         return write_columns(self.columns, path, more, extra, degrees=degrees)
 
     def save(self, path: str | Path) -> Path:
