@@ -197,7 +197,7 @@ def _check_names(setup: _Setup) -> None:
     for i, one in enumerate(plain):
         for other in plain[:i]:
             if not one.entries.isdisjoint(other.entries):
-                raise ParameterError(f"{one.name} and {other.name} act on the same field of the model: name one of them")
+                raise ParameterError(f"{one.name} and {other.name} act on the same field of the model: name one")
 
 
 def _header(setup: _Setup, model: Mapping[str, Any], values: Array) -> dict[str, Any]:
