@@ -44,7 +44,7 @@ def make_crew(executor: Executor | None, scheduler: str | None, workers: int | N
 
 
 class DaskCrew(Crew):
-    """The workers of a Dask scheduler, as many as there are at the time."""
+    """The workers of a Dask scheduler, as many as there are at the time: with none, tasks wait for the first."""
 
     def __init__(self, address: str) -> None:
         try:
@@ -55,11 +55,6 @@ class DaskCrew(Crew):
             self._client: Any = Client(address, timeout=_PATIENCE, set_as_default=False)
         except (OSError, ValueError) as error:
             raise MjcontError(f"no Dask scheduler answers at '{address}': {error}") from error
-        try:
-            self._client.wait_for_workers(1, timeout=_PATIENCE)
-        except (OSError, TimeoutError) as error:
-            self._client.close()
-            raise MjcontError(f"the Dask scheduler at '{address}' has no workers after {_PATIENCE} s") from error
         super().__init__(self._client.get_executor(pure=False), lambda: sum(self._client.nthreads().values()))
 
     def close(self) -> None:

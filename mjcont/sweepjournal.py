@@ -99,8 +99,8 @@ class Journal:
         different = [words for part, words in _PARTS.items() if theirs.get(part) != self.header["identity"][part]]
         if different:
             raise ResultFileError(
-                f"{self.path} belongs to another sweep ({found['what']}): its {' and '.join(different)} differ from "
-                f"this one's ({self.header['what']}). Choose another folder, or delete that file to start anew."
+                f"{self.path} belongs to another sweep ({found['what']}) than this one ({self.header['what']}): they "
+                f"differ in {' and '.join(different)}. Choose another folder, or delete that file to start anew."
             )
         if len(records) != len(rest):
             raise ResultFileError(f"{self.path} is damaged: it has a case twice")
