@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from mjcont.certificates import Certificate, verify_stability
     from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
     from mjcont.critical import FollowedPoint, follow_point
+    from mjcont.designs import Spread
     from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
     from mjcont.drawing import add_poses, draw, draw_poses
     from mjcont.equalities import ConstraintStiffness, constraint_stiffness
@@ -54,6 +55,8 @@ if TYPE_CHECKING:
     from mjcont.stiffness import StiffnessStudy, stiffness_study
     from mjcont.storage import load
     from mjcont.study import load_study, run_study
+    from mjcont.sweeps import sweep
+    from mjcont.sweeptable import SweepTable
     from mjcont.vectorfield import VectorField
 
 _HOMES = {
@@ -63,6 +66,7 @@ _HOMES = {
     "mjcont.certificates": ("Certificate", "verify_stability"),
     "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.critical": ("FollowedPoint", "follow_point"),
+    "mjcont.designs": ("Spread",),
     "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
     "mjcont.drawing": ("add_poses", "draw", "draw_poses"),
     "mjcont.equalities": ("ConstraintStiffness", "constraint_stiffness"),
@@ -82,6 +86,8 @@ _HOMES = {
     "mjcont.stiffness": ("StiffnessStudy", "stiffness_study"),
     "mjcont.storage": ("load",),
     "mjcont.study": ("load_study", "run_study"),
+    "mjcont.sweeps": ("sweep",),
+    "mjcont.sweeptable": ("SweepTable",),
     "mjcont.vectorfield": ("VectorField",),
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
@@ -120,9 +126,11 @@ __all__ = [
     "Settings",
     "SpecialMap",
     "SpecialPoint",
+    "Spread",
     "StartError",
     "StiffnessStudy",
     "StudyError",
+    "SweepTable",
     "VectorField",
     "WorstCase",
     "add_bushes",
@@ -153,6 +161,7 @@ __all__ = [
     "simulate_many",
     "special_map",
     "stiffness_study",
+    "sweep",
     "switch_branches",
     "verify_stability",
     "worst_case",

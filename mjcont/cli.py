@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from mjcont.errors import MjcontError, ResultFileError
 from mjcont.quantities import FRICTION
+from mjcont.sweepcli import add_arguments
 
 if TYPE_CHECKING:
     from mjcont.branch import Branch, Point
@@ -110,6 +111,14 @@ def _check(args: argparse.Namespace) -> int:
     if study is not None:
         say(summary(study))
     return USER_ERROR if problems else OK
+
+
+def _sweep(args: argparse.Namespace) -> int:
+    from mjcont.sweepcli import run
+
+    with _warnings_as_lines():
+        run(args, say)
+    return OK
 
 
 def _plot(args: argparse.Namespace) -> int:
@@ -228,8 +237,9 @@ def _load(path: str) -> Any:
 def _load_curve(path: str) -> Any:
     """Read a branch, a locus or a load path."""
     result = _load(path)
-    if hasattr(result, "velocities"):
-        raise ResultFileError(f"'{path}' holds a time history: inspect and export take it, this command takes curves")
+    for mark, words in (("velocities", "time history"), ("cases", "sweep")):
+        if hasattr(result, mark):
+            raise ResultFileError(f"'{path}' holds a {words}: inspect and export take it, this command takes curves")
     return result
 
 
@@ -349,6 +359,9 @@ def _parser() -> argparse.ArgumentParser:
     p = command("check", _check, "tell everything that is wrong with a study, and what it would compute")
     p.add_argument("study", metavar="STUDY.toml")
     p.add_argument("--friction", choices=FRICTION, help=friction_help + " or the study's own")
+
+    p = command("sweep", _sweep, "compute a study's special points for many variants of its model; resumable")
+    add_arguments(p, _positive)
 
     p = command("plot", _plot, "draw a diagram of stored branches")
     p.add_argument("files", metavar="FILE.h5", nargs="+")

@@ -19,11 +19,14 @@ from mjcont.quantities import FRICTION
 from mjcont.schema import Table
 from mjcont.studykeys import Context, Known, Reference, about, check_keys, pair, read, value_table
 from mjcont.studytables import KINDS, PLOT, PLOT_SUFFIXES, known
+from mjcont.sweepplans import SweepPlan, read_sweep
 
 __all__ = ["PLOT_SUFFIXES", "BranchPlan", "PlotPlan", "Study", "Task", "check_study", "load_study"]
 
 STUDY_VERSION = 1
-TOP = ("version", "model", "friction", "parameters", "declare", *(kind.table for kind in KINDS.values()), "plot")
+TOP = (
+    "version", "model", "friction", "parameters", "declare", *(kind.table for kind in KINDS.values()), "plot", "sweep",
+)
 _NAME = re.compile(r"[A-Za-z_]\w*")
 
 
@@ -75,6 +78,8 @@ class Study:
     branches: tuple[BranchPlan, ...]
     plots: tuple[PlotPlan, ...] = ()
     tasks: tuple[Task, ...] = ()
+    sweep: SweepPlan | None = None
+    friction: str = FRICTION[0]
 
     @property
     def plans(self) -> tuple[BranchPlan | Task, ...]:
@@ -124,7 +129,7 @@ def _read(path: str | Path, friction: str | None) -> tuple[Study | None, list[St
         context.mechanism = _load_model(root, Path(path).parent, friction) if "model" in data else None
     if context.mechanism is not None:
         _prepare(root, context)
-    study = _assemble(root, context)
+    study = _assemble(root, context, friction)
     return (None if context.problems else study), context.problems
 
 
@@ -139,7 +144,7 @@ def _prepare(root: Table, context: Context) -> None:
         context.common = value_table(root.table("parameters"), context)
 
 
-def _assemble(root: Table, context: Context) -> Study:
+def _assemble(root: Table, context: Context, friction: str | None) -> Study:
     branches: list[BranchPlan] = []
     tasks: list[Task] = []
     places: dict[str, str] = {}
@@ -169,7 +174,12 @@ def _assemble(root: Table, context: Context) -> Study:
         if isinstance(table.data.get("file"), str):
             _claim(places, "file", [table.data["file"]], table, context)
         plots += [PlotPlan(**given)] if given is not None else []
-    return Study(root.file, context.mechanism, tuple(branches), tuple(plots), tuple(tasks))
+    sweep, asked = None, friction or FRICTION[0]
+    with context.noting():
+        asked = friction or root.text("friction", FRICTION[0])
+        if context.mechanism is not None:
+            sweep = read_sweep(root, context.mechanism, tuple(branches))
+    return Study(root.file, context.mechanism, tuple(branches), tuple(plots), tuple(tasks), sweep, asked)
 
 
 def _tables(root: Table, key: str, context: Context) -> Sequence[Table]:

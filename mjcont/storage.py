@@ -163,6 +163,10 @@ def load(path: str | Path, problem: Any = None) -> Any:
                 from mjcont.historyfiles import read
 
                 return read(f, problem)
+            if f.attrs["kind"] == "sweep":
+                from mjcont.sweeptable import read_table
+
+                return read_table(f)
             if f.attrs["kind"] == "load path":
                 from mjcont.pathfiles import read_path
 

@@ -163,5 +163,7 @@ def summary(study: Study) -> str:
     for plan in study.plans:
         what = task_line(m, plan) if isinstance(plan, Task) else f"branch: {_task(study, plan).partition(', ')[2]}"
         lines.append(f"  {plan.name}: {what}")
+    if study.sweep is not None:
+        lines += [f"  {p.name}: {p.label}, followed in a sweep by `mjcont sweep`" for p in study.sweep.points]
     lines += [f"  {p.file}: plot of {p.y} against {p.x}, {', '.join(p.branches)}" for p in study.plots]
     return "\n".join(lines)
