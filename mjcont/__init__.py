@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
     from mjcont.critical import FollowedPoint, follow_point
     from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
-    from mjcont.drawing import add_poses, draw, draw_poses
+    from mjcont.drawing import add_poses, animate, draw, draw_poses
     from mjcont.equalities import ConstraintStiffness, constraint_stiffness
     from mjcont.extension import extend
     from mjcont.extremes import WorstCase, worst_case
@@ -64,7 +64,7 @@ _HOMES = {
     "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.critical": ("FollowedPoint", "follow_point"),
     "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
-    "mjcont.drawing": ("add_poses", "draw", "draw_poses"),
+    "mjcont.drawing": ("add_poses", "animate", "draw", "draw_poses"),
     "mjcont.equalities": ("ConstraintStiffness", "constraint_stiffness"),
     "mjcont.extension": ("extend",),
     "mjcont.extremes": ("WorstCase", "worst_case"),
@@ -127,6 +127,7 @@ __all__ = [
     "WorstCase",
     "add_bushes",
     "add_poses",
+    "animate",
     "barrier_along",
     "barrier_map",
     "bifurcation_diagram",
