@@ -60,8 +60,17 @@ def hysteresis() -> None:
     save_figure(figure, OUT / "hysteresis.png", dpi=110)
 
 
+def unlocking() -> None:
+    """Animate the nose landing gear as retraction locks it and the unlock actuator opens it again."""
+    gear = mc.Mechanism.from_xml("nose_gear")
+    legs = [{"F_ret": 4e5, "F_ul": 0.0}, {"F_ret": 5.5e5}, {"F_ul": -600.0}, {"F_ret": 4e5}]
+    path = mc.load_path(gear, legs, keyframe="uplock_above")
+    mc.animate(path, OUT / "unlocking.gif", "F_ret", "theta_ov", fps=20, size=(720, 340))
+
+
 if __name__ == "__main__":
     OUT.mkdir(exist_ok=True)
     hysteresis()
     overcentre()
     poses()
+    unlocking()

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from mjcont.critical import FollowedPoint, follow_point
     from mjcont.designs import Spread
     from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
-    from mjcont.drawing import add_poses, draw, draw_poses
+    from mjcont.drawing import add_poses, animate, draw, draw_poses
     from mjcont.equalities import ConstraintStiffness, constraint_stiffness
     from mjcont.extension import extend
     from mjcont.extremes import WorstCase, worst_case
@@ -68,7 +68,7 @@ _HOMES = {
     "mjcont.critical": ("FollowedPoint", "follow_point"),
     "mjcont.designs": ("Spread",),
     "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
-    "mjcont.drawing": ("add_poses", "draw", "draw_poses"),
+    "mjcont.drawing": ("add_poses", "animate", "draw", "draw_poses"),
     "mjcont.equalities": ("ConstraintStiffness", "constraint_stiffness"),
     "mjcont.extension": ("extend",),
     "mjcont.extremes": ("WorstCase", "worst_case"),
@@ -135,6 +135,7 @@ __all__ = [
     "WorstCase",
     "add_bushes",
     "add_poses",
+    "animate",
     "barrier_along",
     "barrier_map",
     "bifurcation_diagram",

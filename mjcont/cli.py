@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from mjcont.cli_animate import add_arguments, run
 from mjcont.errors import MjcontError, ResultFileError
 from mjcont.quantities import FRICTION
 from mjcont.sweepcli import add_arguments
@@ -370,6 +371,8 @@ def _parser() -> argparse.ArgumentParser:
     p.add_argument("-o", "--out", metavar="FILE", help="png, pdf or svg (default: FILE.png beside the first input)")
     p.add_argument("--no-labels", dest="labels", action="store_false", help="leave out LP1, HB1, ...")
     p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
+
+    add_arguments(command("animate", lambda args: run(args, say), "write a moving picture of a stored result"))
 
     p = command("sensitivities", _sensitivities, "tell how a stored special point moves with the model's parameters")
     p.add_argument("file", metavar="FILE.h5")

@@ -45,6 +45,7 @@ class History:
         changed the history, relative to the motion's size (None without tol).
     provenance : versions and the model's hash.
     problem : the Mechanism, or None for a loaded file without one.
+    fixed : mapping of the other parameters to their values.
     """
 
     columns: Mapping[str, Column]
@@ -56,6 +57,7 @@ class History:
     name: str = ""
     problem: Any = field(repr=False, default=None)
     provenance: Mapping[str, str] = field(default_factory=dict)
+    fixed: Mapping[str, float] = field(default_factory=dict, repr=False)
 
     def __len__(self) -> int:
         """Return the number of samples."""
@@ -63,15 +65,19 @@ class History:
 
     def __getitem__(self, name: str) -> Array:
         """Return a column, (N,)."""
-        if name not in self.columns:
-            raise unknown_name("column", name, self.columns)
-        return self.columns[name].values
+        if name in self.columns:
+            return self.columns[name].values
+        if name in self.fixed:
+            return np.full(len(self), self.fixed[name])
+        raise unknown_name("column", name, [*self.columns, *self.fixed])
 
     def unit(self, name: str) -> str:
-        """Return the unit of a column."""
-        if name not in self.columns:
-            raise unknown_name("column", name, self.columns)
-        return self.columns[name].unit
+        """Return the unit of a column or of a fixed parameter."""
+        if name in self.columns:
+            return self.columns[name].unit
+        if name in self.fixed:
+            return str(self.problem.parameter(name).unit) if self.problem is not None else ""
+        raise unknown_name("column", name, [*self.columns, *self.fixed])
 
     @property
     def units(self) -> dict[str, str]:
@@ -356,6 +362,7 @@ def _history(mechanism: Mechanism, case: Case, outcome: _Outcome, plan: _Plan, c
         "tol": plan.tol,
         "error": None if math.isnan(outcome.error) else outcome.error,
     }
+    fixed = {n: v for n, v in case.values.items() if n not in series}
     return History(
-        columns, states, velocities, status, message, settings, mechanism.name, mechanism, provenance(mechanism)
+        columns, states, velocities, status, message, settings, mechanism.name, mechanism, provenance(mechanism), fixed
     )

@@ -5,6 +5,7 @@ Layout (format version 1)::
     /               attributes: format, format_version, kind "history", name, status, message, settings (JSON), ...
     /model          the MJCF text (absent for a Mechanism made from a compiled model)
     /columns/NAME   (N,) float64, attributes unit, role
+    /fixed          attributes: the other parameters' values (absent in older files)
     /states         (N, nq) float64
     /velocities     (N, nv) float64
 """
@@ -41,6 +42,7 @@ def _write(history: History, path: Path) -> None:
         )
         write_common(f, history)
         f["states"], f["velocities"] = history.states, history.velocities
+        f.create_group("fixed").attrs.update(dict(history.fixed))
 
 
 def read(f: h5py.File, problem: Any) -> History:
@@ -59,5 +61,6 @@ def read(f: h5py.File, problem: Any) -> History:
         settings=json.loads(f.attrs["settings"]),
         name=str(f.attrs["name"]),
         problem=read_problem(f, problem),
+        fixed={k: float(v) for k, v in f["fixed"].attrs.items()} if "fixed" in f else {},
         provenance={k.removeprefix(prefix): str(v) for k, v in f.attrs.items() if k.startswith(prefix)},
     )

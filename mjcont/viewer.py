@@ -28,16 +28,28 @@ def view(mechanism: Mechanism, state: Array, values: Mapping[str, float]) -> Non
     mujoco.viewer.launch(model, data)
 
 
+class Stand:
+    """A copy of a model that takes one pose after another; `model` and `data` stay the same objects."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self._mechanism = mechanism
+        self.model = mechanism.simulation_model()
+        self._writer = mechanism.writer(self.model)
+        self.data = mujoco.MjData(self.model)
+
+    def pose(self, state: Array, values: Mapping[str, float]) -> None:
+        """Put it at rest in a state, with parameter values."""
+        self._writer.write(self._mechanism.parameters, self._mechanism.values(values))
+        self.data.qpos[:] = state
+        self._writer.inputs.begin(self.data)
+        mujoco.mj_forward(self.model, self.data)
+
+
 def posed(mechanism: Mechanism, state: Array, values: Mapping[str, float]) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """Return a copy of the model that has the parameter values, and its data at rest in the state."""
-    model = mechanism.simulation_model()
-    writer = mechanism.writer(model)
-    writer.write(mechanism.parameters, mechanism.values(values))
-    data = mujoco.MjData(model)
-    data.qpos[:] = state
-    writer.inputs.begin(data)
-    mujoco.mj_forward(model, data)
-    return model, data
+    stand = Stand(mechanism)
+    stand.pose(state, values)
+    return stand.model, stand.data
 
 
 def require_display() -> None:

@@ -118,7 +118,11 @@ def picture(
     else:
         raise MjcontError(f"a pose is a point, a state or a keyframe's name, got a {type(pose).__name__}")
     model, data = posed(mechanism, state, given)
-    scene = Scene(model, data, *plane_axes(model, data, plane, mechanism.name))
+    return pictured(Scene(model, data, *plane_axes(model, data, plane, mechanism.name)), given)
+
+
+def pictured(scene: Scene, given: Collection[str]) -> Picture:
+    """Return what a scene looks like; `given` are the parameters whose values are known."""
     return Picture(
         shapes=shapes_of(scene),
         pins=_merged(_pins(scene), _NEAR * scene.size),
