@@ -158,6 +158,13 @@ def _reproduce(args: argparse.Namespace) -> int:
     return FAILED if result.failed else OK
 
 
+def _report(args: argparse.Namespace) -> int:
+    from mjcont.extended import report
+
+    options = {"extended": args.extended, "only": args.only, "jobs": args.jobs, "force": args.force}
+    return FAILED if report(args.out, **options, say=say).failed else OK
+
+
 def _bush(args: argparse.Namespace) -> int:
     from mjcont.bushes import bushed_xml
     from mjcont.loading import compile_spec, parse
@@ -371,9 +378,14 @@ def _parser() -> argparse.ArgumentParser:
 
     p = command("reproduce", _reproduce, "draw the paper's figures and check its findings")
     p.add_argument("figures", metavar="FIGURE", type=_positive, nargs="*", help="such as 3 or 5 (default: all)")
-    p.add_argument("-o", "--out", metavar="DIR", default="out/reproduce", help="default: out/reproduce")
-    p.add_argument("--force", action="store_true", help="compute again what is stored already")
-    p.add_argument("--jobs", metavar="N", type=_positive, help="figures at a time (default: one a processor)")
+
+    q = command("report", _report, "write the report on the paper's figures, and on studies beyond the paper")
+    q.add_argument("--extended", action="store_true", help="the extended studies as well")
+    q.add_argument("--only", metavar="NAME", help="one figure or study, such as fig03 or unlocking")
+    for each in (p, q):
+        each.add_argument("-o", "--out", metavar="DIR", default="out/reproduce", help="default: out/reproduce")
+        each.add_argument("--force", action="store_true", help="compute again what is stored already")
+        each.add_argument("--jobs", metavar="N", type=_positive, help="figures at a time (default: one a processor)")
 
     p = command("bush", _bush, "replace rigid pins by elastic ones, so that a mechanism becomes an ODE")
     p.add_argument("model", metavar="MODEL", help=model_help)
