@@ -13,24 +13,16 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mjcont.cli_animate import add_arguments, run
+from mjcont import cli_animate
+from mjcont.arguments import parser
 from mjcont.errors import MjcontError, ResultFileError
 from mjcont.quantities import FRICTION
-from mjcont.sweepcli import add_arguments
 
 if TYPE_CHECKING:
     from mjcont.branch import Branch, Point
 
 OK, FAILED, USER_ERROR, INTERRUPTED = 0, 1, 2, 130
 _RESULT_SUFFIXES = (".h5", ".hdf5")
-_EXAMPLES = """examples:
-  mjcont inspect overcentre                     what can be continued, what can be read, where to start
-  mjcont run studies/overcentre.toml -o out     compute a study's branches, store them, draw its plots
-  mjcont check studies/overcentre.toml          everything that is wrong with a study, before it runs
-  mjcont plot out/equilibria.h5 -x F -y theta_1
-  mjcont sensitivities out/equilibria.h5 LP1    how that fold moves with masses, lengths, stiffnesses
-  mjcont view out/equilibria.h5 --label LP1     that pose in MuJoCo's viewer
-"""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -46,7 +38,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     int
         0; 1 if a figure could not be reproduced; 2 after a user's error; 130 if interrupted.
     """
-    args = _parser().parse_args(argv)
+    args = parser(_COMMANDS).parse_args(argv)
     try:
         return int(args.command(args))
     except KeyboardInterrupt:
@@ -174,6 +166,13 @@ def _reproduce(args: argparse.Namespace) -> int:
 
     result = reproduce(args.figures or None, args.out, jobs=args.jobs, force=args.force, say=say)
     return FAILED if result.failed else OK
+
+
+def _report(args: argparse.Namespace) -> int:
+    from mjcont.extended import report
+
+    options = {"extended": args.extended, "only": args.only, "jobs": args.jobs, "force": args.force}
+    return FAILED if report(args.out, **options, say=say).failed else OK
 
 
 def _bush(args: argparse.Namespace) -> int:
@@ -306,114 +305,21 @@ def _value(name: str, text: str, unit: str) -> float:
         raise MjcontError(f"--at {name}: {error}") from error
 
 
-# -- arguments ---------------------------------------------------------------------------------------------
+def _animate(args: argparse.Namespace) -> int:
+    return cli_animate.run(args, say)
 
 
-class _Version(argparse.Action):
-    def __call__(self, parser: argparse.ArgumentParser, *rest: Any) -> None:
-        from mjcont import __version__
-
-        say(f"mjcont {__version__}")
-        parser.exit()
-
-
-def _assignment(text: str) -> tuple[str, str]:
-    name, equals, value = text.rpartition("=")
-    if not (name and equals and value):
-        raise argparse.ArgumentTypeError(f"expected NAME=VALUE such as F=20 or gravity_angle=20deg, got '{text}'")
-    return name, value
-
-
-def _positive(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"expected a whole number from 1 on, got '{text}'")
-    return int(text)
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="mjcont",
-        description="Where can a MuJoCo mechanism rest, is it stable there, and how does that change with a parameter?",
-        epilog=_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-
-    def command(name: str, function: Any, text: str) -> argparse.ArgumentParser:
-        added = commands.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
-        added.set_defaults(command=function)
-        return added
-
-    friction_help = "leave friction out of equilibria, or refuse models that have it (default: frictionless)"
-    model_help = "an MJCF file, or the name of a model that ships with mjcont, such as overcentre"
-    p = command("inspect", _inspect, "show a model's parameters, observables and starts, or a result's summary")
-    p.add_argument("model", metavar="MODEL|FILE.h5", help=model_help + "; or a result file")
-    p.add_argument("--friction", choices=FRICTION, help=friction_help)
-
-    p = command("run", _run, "run a study: compute its branches, store them, draw its plots")
-    p.add_argument("study", metavar="STUDY.toml", help="the study file (docs/studies.md)")
-    p.add_argument("-o", "--out", metavar="DIR", default="out", help="folder for results (default: out)")
-    p.add_argument("--friction", choices=FRICTION, help=friction_help + " or the study's own")
-    p.add_argument("-q", "--quiet", action="store_true", help="print errors only")
-
-    p = command("check", _check, "tell everything that is wrong with a study, and what it would compute")
-    p.add_argument("study", metavar="STUDY.toml")
-    p.add_argument("--friction", choices=FRICTION, help=friction_help + " or the study's own")
-
-    p = command("sweep", _sweep, "compute a study's special points for many variants of its model; resumable")
-    add_arguments(p, _positive)
-
-    p = command("plot", _plot, "draw a diagram of stored branches")
-    p.add_argument("files", metavar="FILE.h5", nargs="+")
-    p.add_argument("-x", metavar="COL", required=True, help="column along the horizontal axis")
-    p.add_argument("-y", metavar="COL", required=True, help="column along the vertical axis")
-    p.add_argument("-o", "--out", metavar="FILE", help="png, pdf or svg (default: FILE.png beside the first input)")
-    p.add_argument("--no-labels", dest="labels", action="store_false", help="leave out LP1, HB1, ...")
-    p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
-
-    add_arguments(command("animate", lambda args: run(args, say), "write a moving picture of a stored result"))
-
-    p = command("sensitivities", _sensitivities, "tell how a stored special point moves with the model's parameters")
-    p.add_argument("file", metavar="FILE.h5")
-    p.add_argument("label", metavar="LABEL", help="a special point of it, such as LP1")
-    p.add_argument("-p", "--parameter", metavar="NAME", action="append",
-                   help="a parameter, or a path such as body:strut.mass (repeat it; default: all the model declares)")
-    p.add_argument("-q", "--quantity", metavar="COL", action="append",
-                   help="what moves (repeat it; default: the point's own parameters)")
-    p.add_argument("-o", "--out", metavar="FILE", help="draw a tornado chart of the first: png, pdf or svg")
-    p.add_argument("--csv", metavar="FILE.csv", help="write the table, SI and radians")
-
-    p = command("view", _view, "open MuJoCo's viewer at a pose")
-    p.add_argument("model", metavar="MODEL|FILE.h5", help=model_help + "; or a result file")
-    pose = p.add_mutually_exclusive_group()
-    pose.add_argument("--keyframe", metavar="K", help="a keyframe of the model")
-    pose.add_argument("--label", metavar="LP1", help="a special point of a result")
-    pose.add_argument(
-        "--at",
-        metavar="NAME=VALUE",
-        type=_assignment,
-        action="append",
-        help="the model's equilibrium with these parameter values (repeat it for several), or a result's point there",
-    )
-
-    p = command("reproduce", _reproduce, "draw the paper's figures and check its findings")
-    p.add_argument("figures", metavar="FIGURE", type=_positive, nargs="*", help="such as 3 or 5 (default: all)")
-    p.add_argument("-o", "--out", metavar="DIR", default="out/reproduce", help="default: out/reproduce")
-    p.add_argument("--force", action="store_true", help="compute again what is stored already")
-    p.add_argument("--jobs", metavar="N", type=_positive, help="figures at a time (default: one a processor)")
-
-    p = command("bush", _bush, "replace rigid pins by elastic ones, so that a mechanism becomes an ODE")
-    p.add_argument("model", metavar="MODEL", help=model_help)
-    p.add_argument("-o", "--out", metavar="OUT.xml", required=True, help="the new model")
-    p.add_argument("--joint", metavar="NAME", action="append", help="a hinge or ball joint of the tree (repeat it)")
-    p.add_argument("--connect", metavar="NAME", action="append", help="a connect or weld (default: all active ones)")
-    p.add_argument("--stiffness", metavar="K", type=float, default=1e6, help="N/m (default: 1e6)")
-    p.add_argument("--damping", metavar="C", type=float, help="N s/m (default: about critical)")
-    p.add_argument("--frame", choices=("world", "parent"), default="world", help="to which the axes are parallel")
-
-    p = command("export", _export, "write a stored branch as CSV")
-    p.add_argument("file", metavar="FILE.h5")
-    p.add_argument("-o", "--out", metavar="FILE.csv", help="default: FILE.csv beside the input")
-    p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
-    return parser
+_COMMANDS = {
+    "inspect": _inspect,
+    "run": _run,
+    "check": _check,
+    "sweep": _sweep,
+    "plot": _plot,
+    "animate": _animate,
+    "sensitivities": _sensitivities,
+    "view": _view,
+    "reproduce": _reproduce,
+    "report": _report,
+    "bush": _bush,
+    "export": _export,
+}

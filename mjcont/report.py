@@ -1,4 +1,4 @@
-"""The report of `mjcont reproduce`, as Markdown and as a web page."""
+"""The report of `mjcont reproduce` and `mjcont report`, as Markdown and as a web page."""
 
 from __future__ import annotations
 
@@ -26,7 +26,9 @@ def verdict(finding: Finding) -> str:
 
 def _heading(results: Sequence[FigureResult], versions: Mapping[str, str]) -> tuple[str, str]:
     findings = [f for r in results for f in r.findings]
-    count = f"{sum(f.holds for f in findings)} of {len(findings)} findings hold in {len(results)} figures"
+    studies = sum(isinstance(r.figure, str) for r in results)
+    where = f"{len(results) - studies} figures" + (f" and {studies} extended studies" if studies else "")
+    count = f"{sum(f.holds for f in findings)} of {len(findings)} findings hold in {where}"
     return "The paper's figures, drawn by mjcont", f"{count}. " + ", ".join(f"{k} {v}" for k, v in versions.items())
 
 
@@ -39,7 +41,7 @@ def markdown(results: Sequence[FigureResult], versions: Mapping[str, str]) -> st
         if r.reason:
             lines += [f"**Failed**: {r.reason}", ""]
             continue
-        lines += [f"![Figure {r.figure}]({r.image})", "", "| Claim | Computed | |", "|---|---|---|"]
+        lines += [f"![{r.label.capitalize()}]({r.image})", "", "| Claim | Computed | |", "|---|---|---|"]
         cells = [(f.claim, f.computed, verdict(f)) for f in r.findings]
         lines += ["| " + " | ".join(c.replace("|", "\\|") for c in row) + " |" for row in cells] + [""]
     return "\n".join(lines)
@@ -63,12 +65,13 @@ def as_html(results: Sequence[FigureResult], versions: Mapping[str, str]) -> str
     title, summary = (html.escape(t) for t in _heading(results, versions))
     body = [f"<h1>{title}</h1>", f'<p class="versions">{summary}.</p>', f"<p>{html.escape(INTRODUCTION)}</p>"]
     for r in results:
-        body += [f'<h2 id="fig{r.figure:02d}">{html.escape(r.title)}</h2>']
+        anchor = r.image.removesuffix(".png")
+        body += [f'<h2 id="{anchor}">{html.escape(r.title)}</h2>']
         body += [f"<p>{html.escape(r.caption)}</p>"] if r.caption else []
         if r.reason:
             body += [f'<p class="fails">Failed: {html.escape(r.reason)}</p>']
             continue
-        body += [f'<img src="{r.image}" alt="Figure {r.figure}">', "<table>"]
+        body += [f'<img src="{r.image}" alt="{r.label.capitalize()}">', "<table>"]
         body += ["<tr><th>Claim</th><th>Computed</th><th></th></tr>"]
         for f in r.findings:
             cells = f"<td>{html.escape(f.claim)}</td><td>{html.escape(f.computed)}</td>"

@@ -55,9 +55,9 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class FigureResult:
-    """A figure that was drawn, or failed for a reason; `stamp` identifies all that it was made from."""
+    """A figure or a study that was drawn, or failed for a reason; `stamp` identifies all that it was made from."""
 
-    figure: int
+    figure: int | str
     title: str
     caption: str
     findings: tuple[Finding, ...]
@@ -67,29 +67,34 @@ class FigureResult:
     @property
     def image(self) -> str:
         """Name of the picture's file."""
-        return f"fig{self.figure:02d}.png"
+        return f"{stem(self.figure)}.png"
 
     def __str__(self) -> str:
         """Return the outcome in one line."""
         if self.reason:
-            return f"figure {self.figure}: failed: {self.reason}"
-        return f"figure {self.figure}: {sum(f.holds for f in self.findings)} of {len(self.findings)} findings hold"
+            return f"{self.label}: failed: {self.reason}"
+        return f"{self.label}: {sum(f.holds for f in self.findings)} of {len(self.findings)} findings hold"
+
+    @property
+    def label(self) -> str:
+        """A figure's number or a study's name, to be read."""
+        return _label(self.figure)
 
 
 @dataclass(frozen=True, slots=True)
 class ReproduceResult:
-    """The results of the figures asked for, by number, and the HTML report; `report.md` lies beside it."""
+    """The results of the figures and studies asked for, and the HTML report; `report.md` lies beside it."""
 
-    figures: dict[int, FigureResult]
+    figures: dict[int | str, FigureResult]
     report: Path
 
     @property
-    def failed(self) -> list[int]:
-        """Numbers of the figures that could not be drawn."""
+    def failed(self) -> list[int | str]:
+        """Figures and studies that could not be drawn."""
         return [n for n, r in self.figures.items() if r.reason]
 
     @property
-    def findings(self) -> dict[int, tuple[Finding, ...]]:
+    def findings(self) -> dict[int | str, tuple[Finding, ...]]:
         """The findings of each figure asked for."""
         return {n: r.findings for n, r in self.figures.items()}
 
@@ -168,28 +173,41 @@ def reproduce(
         If a number is unknown (the message lists those there are) or the folder cannot be made. A figure that
         fails is no exception: see `ReproduceResult.failed`.
     """
-    numbers, out = _chosen(figures), Path(out)
+    return draw(_chosen(figures), available(), out, jobs=jobs, force=force, say=say)
+
+
+def draw(
+    chosen: Sequence[int | str],
+    covered: Sequence[int | str],
+    out: str | Path,
+    *,
+    jobs: int | None = None,
+    force: bool = False,
+    say: Callable[[str], None] = print,
+) -> ReproduceResult:
+    """Draw figures and studies, and write the report on those `covered` that are up to date; see `reproduce`."""
+    out = Path(out)
     if jobs is not None and jobs < 1:
         raise MjcontError(f"jobs must be at least 1, got {jobs}")
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise MjcontError(f"cannot make the folder {out}: {error.strerror or error}") from error
-    stamps = {n: _stamp(n) for n in {*numbers, *available()}}
+    stamps = {n: _stamp(n) for n in dict.fromkeys([*covered, *chosen])}
     results = {n: r for n in stamps if (r := _up_to_date(out, n, stamps[n])) is not None}
-    for n in [] if force else [n for n in numbers if n in results]:
+    for n in [] if force else [n for n in chosen if n in results]:
         say(f"{results[n]} (up to date)")
-    todo = [n for n in numbers if force or n not in results]
+    todo = [n for n in chosen if force or n not in results]
     try:
         for result in _draw_all(todo, out, stamps, jobs or os.cpu_count() or 1):
             results[result.figure] = result
             say(str(result))
     finally:
-        done = [results[n] for n in sorted(results)]
+        done = [results[n] for n in stamps if n in results]
         _write(out / "report.md", markdown(done, versions()))
         report = _write(out / "report.html", as_html(done, versions()))
     say(f"report: {report}")
-    return ReproduceResult({n: results[n] for n in numbers}, report)
+    return ReproduceResult({n: results[n] for n in chosen}, report)
 
 
 def _chosen(figures: Sequence[int] | None) -> list[int]:
@@ -203,16 +221,16 @@ def _chosen(figures: Sequence[int] | None) -> list[int]:
     return chosen
 
 
-def _draw_all(todo: Sequence[int], out: Path, stamps: dict[int, str], jobs: int) -> Iterator[FigureResult]:
+def _draw_all(todo: Sequence[int | str], out: Path, stamps: dict[int | str, str], jobs: int) -> Iterator[FigureResult]:
     """Draw figures in processes of their own, so that one that crashes harms no other; yield each as it ends."""
     context = multiprocessing.get_context("spawn")
     waiting = list(todo)
-    running: dict[Any, tuple[int, Any]] = {}
+    running: dict[Any, tuple[int | str, Any]] = {}
     try:
         while waiting or running:
             while waiting and len(running) < jobs:
                 n = waiting.pop(0)
-                process = context.Process(target=_draw, args=(n, _script(n), out, stamps[n]), name=f"figure {n}")
+                process = context.Process(target=_draw, args=(n, _script(n), out, stamps[n]), name=_label(n))
                 with _environment(_ONE_THREAD):
                     process.start()
                 running[process.sentinel] = (n, process)
@@ -242,14 +260,14 @@ def _environment(values: dict[str, str]) -> Iterator[None]:
         os.environ.update(before)
 
 
-def _draw(figure: int, script: Path, out: Path, stamp: str) -> None:
+def _draw(figure: int | str, script: Path, out: Path, stamp: str) -> None:
     """Draw one figure in this process, made for it, and write its json."""
     import matplotlib
 
     # An interrupt ends this process: continuation would take it as a wish for a partial branch.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     matplotlib.rcdefaults()
-    png, record = out / f"fig{figure:02d}.png", _record(out, figure)
+    png, record = out / f"{stem(figure)}.png", _record(out, figure)
     for old in (record, png):
         old.unlink(missing_ok=True)
     findings: tuple[Finding, ...] = ()
@@ -282,22 +300,31 @@ def _one_line(error: Exception) -> str:
     return text if isinstance(error, MjcontError) else f"{type(error).__name__}: {text}"
 
 
-def _result(figure: int, script: Path, findings: Sequence[Finding], reason: str, stamp: str) -> FigureResult:
+def _result(figure: int | str, script: Path, findings: Sequence[Finding], reason: str, stamp: str) -> FigureResult:
     try:
         doc = ast.get_docstring(ast.parse(script.read_text(encoding="utf-8"))) or ""
     except SyntaxError:
         doc = ""
     first, _, caption = doc.partition("\n")
-    title = first.rstrip(".") or f"Figure {figure}"
+    title = first.rstrip(".") or _label(figure).capitalize()
     return FigureResult(figure, title, caption.strip(), tuple(findings), reason, stamp)
 
 
-def _script(figure: int) -> Path:
-    return scripts_folder() / f"fig{figure:02d}.py"
+def stem(figure: int | str) -> str:
+    """Return the name, without ending, of a figure's or a study's script and files."""
+    return f"fig{figure:02d}" if isinstance(figure, int) else figure
 
 
-def _record(out: Path, figure: int) -> Path:
-    return out / f"fig{figure:02d}.json"
+def _label(figure: int | str) -> str:
+    return f"figure {figure}" if isinstance(figure, int) else figure
+
+
+def _script(figure: int | str) -> Path:
+    return scripts_folder() / f"{stem(figure)}.py"
+
+
+def _record(out: Path, figure: int | str) -> Path:
+    return out / f"{stem(figure)}.json"
 
 
 def _write(path: Path, text: str) -> Path:
@@ -307,7 +334,7 @@ def _write(path: Path, text: str) -> Path:
     return write_atomically(path, write)
 
 
-def _read(out: Path, figure: int) -> FigureResult | None:
+def _read(out: Path, figure: int | str) -> FigureResult | None:
     try:
         data: dict[str, Any] = json.loads(_record(out, figure).read_text(encoding="utf-8"))
         return FigureResult(**{**data, "findings": tuple(Finding(**f) for f in data["findings"])})
@@ -315,7 +342,7 @@ def _read(out: Path, figure: int) -> FigureResult | None:
         return None
 
 
-def _up_to_date(out: Path, figure: int, stamp: str) -> FigureResult | None:
+def _up_to_date(out: Path, figure: int | str, stamp: str) -> FigureResult | None:
     result = _read(out, figure)
     fresh = result is not None and result.stamp == stamp and not result.reason and (out / result.image).is_file()
     return result if fresh else None
@@ -330,10 +357,10 @@ def versions() -> dict[str, str]:
     return found | {name: metadata.version(name) for name in names}
 
 
-def _stamp(figure: int) -> str:
-    """Return a hash of all that a figure is made from: scripts, models, the sources of mjcont, versions."""
+def _stamp(figure: int | str) -> str:
+    """Return a hash of all that a figure is made from: its script, helpers, models, mjcont's sources, versions."""
     package, scripts = Path(str(resources.files("mjcont"))), scripts_folder()
-    helpers = [p for p in scripts.glob("*.py") if not _SCRIPT.fullmatch(p.name)]
+    helpers = scripts.glob("_*.py")
     sources = [p for p in package.rglob("*.py") if scripts not in p.parents]
     files = [_script(figure), *sorted(helpers), *sorted(models_folder().glob("*.xml")), *sorted(sources)]
     digest = hashlib.sha256(json.dumps(versions(), sort_keys=True).encode())

@@ -206,6 +206,19 @@ def test_reproduce_passes_its_arguments_and_fails_with_a_figure(
     assert calls == [(None, "out/reproduce", None, False), ([3, 5], "x", 2, True)]
 
 
+def test_report_passes_its_arguments_and_fails_with_a_study(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = []
+
+    def fake(out: object, **options: object) -> SimpleNamespace:
+        calls.append((out, options["extended"], options["only"], options["force"]))
+        return SimpleNamespace(failed=["unlocking"] if options["extended"] else [])
+
+    monkeypatch.setattr("mjcont.extended.report", fake)
+    assert main(["report"]) == 0
+    assert main(["report", "--extended", "--only", "unlocking", "-o", "x", "--force"]) == 1
+    assert calls == [("out/reproduce", False, None, False), ("x", True, "unlocking", True)]
+
+
 # -- interrupts and pipes ----------------------------------------------------------------------------------
 
 
@@ -379,3 +392,4 @@ def test_a_result_that_is_missing_or_not_hdf5_says_so(fails: Fails, here: Path, 
 
 def test_an_unknown_figure_lists_those_there_are(fails: Fails) -> None:
     assert "unknown figure 999. Valid: 1, 2" in fails("reproduce", "999")
+    assert "unknown figure or study 'unlock'. Did you mean unlocking?" in fails("report", "--only", "unlock")
