@@ -23,6 +23,8 @@ from mjcont.numerics.system import Local, System
 _WANDER = 0.5
 _CONTRACTION = 0.1
 _GROWTH = 2.0
+# a parameter that moves by less along the tangent has no direction: the start is a fold, and noise would decide
+_AT_FOLD = 1e-5
 _PAST = 2
 # the contraction of the last corrector counts as this many times worse for the next
 _TRUST = 3.0
@@ -97,7 +99,7 @@ def first_point(
     c = correct(system, x, y, row, None, settings)
     if c.failure:
         return c.failure
-    component = tangent[lead] if abs(tangent[lead]) > 1e-8 else tangent[np.argmax(np.abs(tangent))]
+    component = tangent[lead] if abs(tangent[lead]) > _AT_FOLD else tangent[np.argmax(np.abs(tangent))]
     return point_from(c, tangent if component * direction > 0 else -tangent, 0.0)
 
 
