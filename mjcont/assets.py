@@ -1,7 +1,7 @@
 """Files beside an MJCF that are not there: what only shows them is left out with a note, what needs them is refused.
 
 A mesh, height field, texture or skin that is drawn changes no equilibrium. A geom that collides is left out, too, and
-the note says so; a geom that gives a moving body its mass cannot be.
+the note says so, and so is the mass of a part fixed to another; a geom that gives a body with joints its mass cannot be.
 """
 
 from __future__ import annotations
@@ -33,14 +33,18 @@ def drop_missing(spec: mujoco.MjSpec, folder: Path) -> tuple[str, ...]:
     Raises
     ------
     ModelError
-        If a moving body takes its mass from such a geom.
+        If a body with joints takes its mass from such a geom.
     """
     meshes, heights, skins = (_missing(spec, e, folder, "meshdir") for e in (spec.meshes, spec.hfields, spec.skins))
     textures = _missing(spec, spec.textures, folder, "texturedir")
     shapes = {e.name: file for e, file in (*meshes, *heights)}
     geoms = [g for g in spec.geoms if (g.meshname or g.hfieldname) in shapes]
-    _refuse_lost_mass({g.parent.name: shapes[g.meshname or g.hfieldname] for g in geoms if _weighs(g)})
+    weighing = [g for g in geoms if _weighs(g)]
+    _refuse_lost_mass({g.parent.name: shapes[g.meshname or g.hfieldname] for g in weighing if len(g.parent.joints)})
     notes = _drop_geoms(spec, geoms, shapes) + _drop_looks(spec, textures, skins)
+    lighter = list(dict.fromkeys(g.parent.name or "a body" for g in weighing))
+    if lighter:
+        notes.append(f"the mass of these geoms is not there: {_listed(lighter)}; give every such body an <inertial>")
     for element, _ in (*meshes, *heights, *skins, *textures):
         spec.delete(element)
     return tuple(notes)
@@ -103,6 +107,11 @@ def _refuse_lost_mass(files: dict[str, str]) -> None:
             f"there: {', '.join(f'{body} ({file})' for body, file in files.items())}. Put the files where the model "
             "looks for them, or give every such body an <inertial>."
         )
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return f"of {', '.join(names[:_SHOWN])}{more}"
 
 
 def _weighs(geom: Any) -> bool:

@@ -103,6 +103,14 @@ def test_a_moving_body_does_not_lose_its_mass(written, geom, inertial, compiler)
         mc.Mechanism.from_xml(written(model(geom, inertial, compiler=compiler)))
 
 
+def test_a_part_fixed_to_another_may_lose_its_mass_with_a_note(written):
+    part = '<body name="badge">' + SHOWN + "</body>"
+    mechanism = mc.Mechanism.from_xml(written(model('<geom name="bob" size="0.1" pos="0 0 1" mass="1"/>' + part)))
+    assert "the mass of these geoms is not there: of badge" in mechanism.notes[1]
+    (point,) = upright(mechanism).special_points
+    assert point["load_factor"] * 9.81 == pytest.approx(1.0, rel=1e-10)
+
+
 @pytest.mark.parametrize("weightless", ['mass="0"', 'density="0"', 'group="3"'])
 def test_a_geom_without_mass_may_be_missing(written, weightless):
     bob = '<geom name="bob" size="0.1" pos="0 0 1" mass="1"/>'

@@ -308,13 +308,8 @@ def test_a_servo_of_the_fish_reaches_its_command_against_no_spring(fish):
 
 @pytest.fixture(scope="module")
 def panda():
-    """The arm with the two inertials that it leaves to absent meshes, and springs that hold it."""
-    text = PANDA.read_text()
-    for body in ("base_mount", "fts300_sensor_body"):
-        start = f'<body name="{body}" gravcomp="1">'
-        assert start in text
-        text = text.replace(start, f'{start}<inertial pos="0 0 0" mass="0.05" diaginertia="1e-5 1e-5 1e-5"/>')
-    mechanism = mc.Mechanism.from_xml(text)
+    """The arm as it is, without its meshes, and springs that hold it."""
+    mechanism = load(PANDA)
     mechanism.declare("k_arm", "joint:joint*.stiffness", unit="N m/rad")
     return mechanism
 
@@ -325,10 +320,8 @@ REACH = np.array([0.0, 0.0, 0.0, -2.0, 0.0, 0.0, 0.0, 0.4, 0.4, -0.4, 0.4, 0.4, 
 
 def test_the_gripper_loses_its_meshes_but_no_mass_unnoticed(panda):
     assert panda.n == 13
-    assert len(panda.notes) == 1
     assert "files are not there: base.stl, base_coupling.stl, c-a01-85-open.stl and 75 more" in panda.notes[0]
-    with pytest.raises(mc.ModelError, match="base_mount .*fts300_sensor_body"):
-        load(PANDA)
+    assert any("mass of these geoms is not there: of base_mount, fts300_sensor_body" in note for note in panda.notes)
 
 
 def test_the_gripper_closes_with_its_command(panda):
