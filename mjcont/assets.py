@@ -1,7 +1,7 @@
 """Files beside an MJCF that are not there: what only shows them is left out with a note, what needs them is refused.
 
 A mesh, height field, texture or skin that is drawn changes no equilibrium. A geom that collides is left out, too, and
-the note says so, and so is the mass of a part fixed to another; a geom that gives a body with joints its mass cannot be.
+the note says so, and so is the mass of a part fixed to another; a geom that gives a jointed body its mass cannot be.
 """
 
 from __future__ import annotations
