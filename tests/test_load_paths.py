@@ -35,7 +35,7 @@ def gear():
 
 
 def test_the_overcentre_jumps_at_the_folds_of_the_reference(cycle):
-    assert [j.before["F"] for j in cycle.jumps] == pytest.approx([UPPER_FOLD, LOWER_FOLD], rel=0, abs=1e-8)
+    assert [j.before["F"] for j in cycle.jumps] == pytest.approx([UPPER_FOLD, LOWER_FOLD], rel=0, abs=1e-9)
     assert [(j.label, j.kind) for j in cycle.jumps] == [("LP1", "LP"), ("LP2", "LP")]
     assert cycle.done
 
