@@ -54,12 +54,13 @@ class Study:
 
 def main(out: Path) -> list[Finding]:
     """Run the study, draw it and return its findings."""
-    return present(compute(), out)
-
-
-def present(study: Study, out: Path) -> list[Finding]:
-    """Draw a study and return its findings."""
+    study = compute()
     _draw(study, out / "load_map.png")
+    return findings(study)
+
+
+def findings(study: Study) -> list[Finding]:
+    """Return a study's findings."""
     return [_exists(study), _worst_retraction(study), _worst_unlock(study), _worst_fold(study), _conclusion(study),
             _locklinks(study), _strut(study), _critical(study)]
 

@@ -3,8 +3,8 @@
 Twelve masses, stiffnesses, lengths and pin positions scatter about the nominal gear, each by a normal distribution
 cut at three standard deviations; a sweep finds the cusp of each gear drawn. The linear estimate takes the cusp's
 derivatives alone. All widths together are multiplied by a factor; the random numbers stay the same. (a, b)
-Distribution of the forces, line: linear estimate. (c) Error of the linear estimate by case against the factor,
-relative to the standard deviation. (d) Share of each parameter in the variance by the linear estimate.
+Distribution of the forces, in standard deviations of the linear estimate. (c) Error of the linear estimate by case
+against the factor. (d) Share of each parameter in the variance by the linear estimate.
 """
 
 from __future__ import annotations
@@ -80,11 +80,7 @@ class Study:
 
 def main(out: Path) -> list[Finding]:
     """Run the study, draw it and return its findings."""
-    return present(compute(), out)
-
-
-def present(study: Study, out: Path) -> list[Finding]:
-    """Draw a study and return its findings."""
+    study = compute()
     _draw(study, out / "tolerances.png")
     return [_agrees(study), _centred(study), _quadratic(study), _stops(study), _tail(study), _contributes(study)]
 
@@ -123,29 +119,24 @@ def _draw_gears(cusp: mc.SpecialPoint, found: mc.Sensitivities, factor: float, c
 
 def _draw(study: Study, path: Path) -> None:
     figure, axes = new_figure(2, 2, (9.4, 7.4))
-    for ax, panel, force, unit in zip(axes[0], "ab", FORCES, (1.0, 1e3), strict=True):
-        _draw_histograms(ax, study, force, unit)
+    for ax, panel, force in zip(axes[0], "ab", FORCES, strict=True):
+        _draw_histograms(ax, study, force)
         set_panel_title(ax, f"({panel})  {force} at the cusp, {study.cases} gears a factor")
     _draw_errors(axes[1, 0], study)
     _draw_shares(axes[1, 1], study)
     save_figure(figure, path)
 
 
-def _draw_histograms(ax: Any, study: Study, force: str, unit: float) -> None:
+def _draw_histograms(ax: Any, study: Study, force: str) -> None:
     nominal = study.sensitivities.values[force]
-    wide = 3.6 * study.draws[-1].deviation[force]
+    edges = np.linspace(-4.5, 4.5, 25)
     for draws, color in zip(study.draws, COLORS, strict=False):
-        spread = draws.deviation[force]
-        changes = draws.found[force][np.isfinite(draws.found[force])] - nominal
-        edges = np.linspace(-3.6, 3.6, 25) * spread
-        density = np.histogram(changes, edges)[0] / len(changes) / np.diff(edges) * unit
-        ax.stairs(density, (nominal + edges) / unit, fill=True, color=color, alpha=0.35, label=f"x {draws.factor:g}")
-        x = np.linspace(-wide, wide, 2001)
-        x = x[np.abs(x) < 4.0 * spread]
-        ax.plot((nominal + x) / unit, stats.norm.pdf(x, scale=spread) * unit, color=color, linewidth=1.3)
-    tops = [0.4 * unit / d.deviation[force] for d in study.draws]
-    ax.set(xlabel=f"{force} [{'N' if unit == 1.0 else 'kN'}]", ylabel=f"density [1/{'N' if unit == 1.0 else 'kN'}]",
-           yscale="log", ylim=(0.01 * tops[-1], 3.0 * tops[0]), xlim=np.array([nominal - wide, nominal + wide]) / unit)
+        changes = (draws.found[force] - nominal) / draws.deviation[force]
+        density = np.histogram(changes[np.isfinite(changes)], edges)[0] / draws.count(force) / (edges[1] - edges[0])
+        ax.stairs(density, edges, color=color, linewidth=1.2, label=f"factor {draws.factor:g}")
+    x = np.linspace(edges[0], edges[-1], 301)
+    ax.plot(x, stats.norm.pdf(x), color="#333333", linewidth=1.6, label="normal")
+    ax.set(xlabel=f"({force} - nominal) / linear standard deviation", ylabel="density", xlim=(edges[0], edges[-1]))
     ax.legend(frameon=True, framealpha=0.9, edgecolor="none", fontsize=8, loc="upper left")
 
 
