@@ -219,7 +219,7 @@ def _stops(study: Study) -> Finding:
                         for d in study.draws])
         shown.append(f"{q}: single gears {', '.join(f'{100 * s:.2g} %' for s in shares)} of a standard deviation, "
                      f"{100 * COARSE:g} % at a factor of about {at:.0f}; standard deviation "
-                     f"{', '.join(f'{100 * o:+.2f} %' for o in off)}")
+                     f"{', '.join(f'{100 * o + 0.0:.1f} %' for o in off)}")
         first = int(np.argmax(shares > COARSE))
         holds.append(shares[0] < COARSE < shares[-1] and abs(off[first]) < COARSE)
     lost = ", ".join(str(len(d.failures)) for d in study.draws)
@@ -253,7 +253,7 @@ def _contributes(study: Study) -> Finding:
     heavy = sum(unlock[n] for n in ("m_1", "m_2", "m_3", "m_6", "r_ret", "k_j"))
     return Finding(
         "The unlock force scatters with the spring on the locklinks, the retraction force with the weights of strut "
-        "and wheels and its own lever, neither of which moves the unlock force.",
+        "and wheels and its own lever, which hardly move the unlock force.",
         f"shares of the variance, linear: {'; '.join(shown)}. Of F_ul, {100 * heavy:.0e} % is due to strut, wheels, "
         "stays, lever and bushes. Tolerances are an assumption of this study, and independent; cusps in level flight",
         unlock["k_sp"] + unlock["l_us"] > 0.9 and retract["m_1"] + retract["m_6"] + retract["r_ret"] > 0.9
