@@ -101,7 +101,7 @@ def zero_modes(
         largest = max(largest, np.abs(force).max())
     opposed = np.concatenate([*barred, np.array(work) / (largest or 1.0)])
     if among is None:
-        _, sizes, vh = np.linalg.svd(opposed)
+        _, sizes, vh = np.linalg.svd(opposed, full_matrices=False)
         names = _named(vh[sizes <= _RIGID])
     else:
         names = [n for n in among if np.linalg.norm(opposed @ twist(n)) <= _SAME]
