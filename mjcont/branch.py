@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -133,7 +133,25 @@ class Column:
     values: Array
 
 
-@dataclass(frozen=True, slots=True)
+class _Deferred:
+    """A field that may be given as a function: it is called once, where the field is read first."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._key = f"_{name}"
+
+    def __get__(self, instance: Any, owner: type) -> Any:
+        if instance is None:
+            raise AttributeError  # dataclasses: a field without a default
+        value = instance.__dict__[self._key]
+        if callable(value):
+            value = instance.__dict__[self._key] = value()
+        return value
+
+    def __set__(self, instance: Any, value: Any) -> None:
+        instance.__dict__[self._key] = value
+
+
+@dataclass(frozen=True)
 class Branch:
     """A curve of equilibria, or a locus of special points.
 
@@ -143,7 +161,8 @@ class Branch:
     name : the model's name.
     columns : mapping of name to Column; every free parameter and observable.
     states : (N, nq) array.
-    eigenvalues : (N, m) complex array, NaN where a row has fewer.
+    eigenvalues : (N, m) complex array, NaN where a row has fewer; computed where first read, as far as stability did
+        not need them.
     stability : (N,) array of "stable", "unstable", "marginal".
     n_unstable : (N,) int array.
     special_points : in order along the branch.
@@ -164,7 +183,7 @@ class Branch:
     columns: Mapping[str, Column]
     states: Array
     state_labels: Sequence[tuple[str, str]]
-    eigenvalues: Array
+    eigenvalues: Array = cast("Array", _Deferred())  # noqa: RUF009
     stability: Array
     n_unstable: Array
     residuals: Array
@@ -202,6 +221,10 @@ class Branch:
             return self.fixed_units.get(name, "")
         raise unknown_name("column", name, [*self.columns, *self.fixed])
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what is pickled and copied: everything, computed."""
+        return {**self.__dict__, "_eigenvalues": self.eigenvalues}
+
     @property
     def status(self) -> str:
         """One word for how the branch ended: the least regular of its two ends."""
@@ -232,11 +255,15 @@ class Branch:
 
     def row(self, index: int) -> Point:
         """Return a point of the branch by its row."""
+        return self.row_with(index, self.eigenvalues[index])
+
+    def row_with(self, index: int, eigenvalues: Array) -> Point:
+        """Return a point of the branch by its row, its eigenvalues known."""
         return Point(
             self._parameters(index),
             {c.name: float(c.values[index]) for c in self.columns.values() if c.role == "observable"},
             self.states[index].copy(),
-            self.eigenvalues[index][~np.isnan(self.eigenvalues[index])],
+            eigenvalues[~np.isnan(eigenvalues)],
             str(self.stability[index]),
             int(self.n_unstable[index]),
             self.problem,

@@ -14,11 +14,12 @@ import numpy as np
 
 from mjcont.branch import Branch, Column, Point, SpecialPoint, show
 from mjcont.errors import StartError
-from mjcont.numerics.arclength import CurvePoint, first_point
-from mjcont.numerics.equilibria import local_spectrum, spectra_of
+from mjcont.numerics.arclength import CurvePoint, first_point, turned_back
 from mjcont.numerics.events import Located
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
+from mjcont.numerics.spectrum import Spectrum
+from mjcont.numerics.stability import local_spectrum, spectra_at, verdicts
 from mjcont.numerics.system import Local, System
 from mjcont.numerics.trace import End, Status, Trace, Walker, trace
 from mjcont.storage import special_from_row
@@ -87,7 +88,11 @@ def run_directions(
         if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
             break
         with np.errstate(all="ignore"):  # a state that overflows fails its step; that is reported as such
-            first = first_point(walker.system, x, y, direction, walker.settings, lead)
+            first: CurvePoint | str
+            if walker.long is not None and traces and traces[0].points:
+                first = turned_back(walker.system, traces[0].points)
+            else:
+                first = first_point(walker.system, x, y, direction, walker.settings, lead)
             if isinstance(first, str):
                 traces.append(Trace([], [], End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
@@ -150,10 +155,17 @@ def build_branch(
 ) -> Branch:
     """Return the branch of ordered curve points: columns, spectra, labelled special points, provenance."""
     problem: Any = system.problem
-    values = [system.values(p.y) for p, _ in rows]
+    values = [p.local.values if "interior" in p.extra else system.values(p.y) for p, _ in rows]
     states = np.array([p.x for p, _ in rows])
-    spectra = spectra_of([p for p, _ in rows])
-    measured = problem.measure(states, values)
+    special = {i for i, (_, e) in enumerate(rows) if e is not None}
+    words, counts, spectra = verdicts([p for p, _ in rows], special)
+    stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
+    stability[[i for i in special if rows[i][1].kind in ("LP", "HB", "BP")]] = "marginal"  # type: ignore[union-attr]
+    name = system.free[0].name
+    if len(system.free) == 1 and name in problem.parameters:
+        measured = problem.measure_along(states, values[0], name, np.array([v[name] for v in values]))
+    else:
+        measured = problem.measure(states, values)
     unit_of = units(problem)
     columns = {
         p.name: Column(p.name, unit_of[p.name], "parameter", _frozen([v[p.name] for v in values])) for p in system.free
@@ -161,21 +173,15 @@ def build_branch(
     for k, name in enumerate(problem.observables):
         if name not in columns:
             columns[name] = Column(name, unit_of[name], "observable", _frozen(measured[:, k]))
-    width = max(len(s.eigenvalues) for s in spectra)
-    eigenvalues = np.full((len(rows), width), complex(np.nan, np.nan))
-    for i, s in enumerate(spectra):
-        eigenvalues[i, : len(s.eigenvalues)] = s.eigenvalues
-    stability = np.array([s.stability for s in spectra], dtype="U8")
-    stability[[i for i, (_, e) in enumerate(rows) if e is not None and e.kind in ("LP", "HB", "BP")]] = "marginal"
     branch = Branch(
         kind=kind,
         name=problem.name,
         columns=columns,
         states=_frozen(states),
         state_labels=problem.state_labels,
-        eigenvalues=_frozen(eigenvalues),
+        eigenvalues=_eigenvalues(problem, states, values, spectra),  # type: ignore[arg-type]
         stability=_frozen(stability),
-        n_unstable=_frozen([s.n_unstable for s in spectra]),
+        n_unstable=_frozen(n_unstable),
         residuals=_frozen([p.error for p, _ in rows]),
         special_points=(),
         free={p.name: (p.low, p.high) for p in system.free},
@@ -189,10 +195,10 @@ def build_branch(
         neutral_saddles=[
             {n: v for n, v in system.values(e.point.y).items() if n in system.names} for e in neutral
         ],
-        notes=(*notes, *_springs(problem, system, values), *_unexplained(kind, system, rows, spectra)),
+        notes=(*notes, *_springs(problem, system, values), *_unexplained(kind, system, rows, stability, n_unstable)),
         fixed_units={k: u for k, u in unit_of.items() if k in values[0] and k not in system.names},
     )
-    object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows)))
+    object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows, spectra)))
     object.__setattr__(branch, "start", _describe_start(branch, origin))
     return branch
 
@@ -207,22 +213,44 @@ def _springs(problem: Any, system: System, values: Sequence[Values]) -> list[str
     return notes_on(problem, ends)
 
 
+def _eigenvalues(
+    problem: Any, states: Array, values: Sequence[Values], spectra: Sequence[Spectrum | None]
+) -> Array | Callable[[], Array]:
+    """Return the eigenvalues of all rows, (N, m), or a function that computes those that are missing."""
+    known: list[Array | None] = [None if s is None else s.eigenvalues for s in spectra]
+    missing = [i for i, s in enumerate(spectra) if s is None]
+
+    def complete() -> Array:
+        for i, s in zip(missing, spectra_at(problem, states[missing], [values[i] for i in missing]), strict=True):
+            known[i] = s.eigenvalues
+        every = [e for e in known if e is not None]
+        out = np.full((len(every), max(len(e) for e in every)), complex(np.nan, np.nan))
+        for row, e in zip(out, every, strict=True):
+            row[: len(e)] = e
+        return _frozen(out)
+
+    return complete if missing else complete()
+
+
 def _unexplained(
-    kind: str, system: System, rows: Sequence[tuple[CurvePoint, Located | None]], spectra: Sequence[Any]
+    kind: str,
+    system: System,
+    rows: Sequence[tuple[CurvePoint, Located | None]],
+    stability: Array,
+    n_unstable: Array,
 ) -> list[str]:
     """Return a sentence for each change of stability without a special point: several eigenvalues pass zero at once."""
     if kind != "equilibria":
         return []
     found = []
-    for (a, before), (b, after), s, t in zip(rows, rows[1:], spectra, spectra[1:], strict=False):
-        if s.n_unstable != t.n_unstable and before is None and after is None and "marginal" not in (
-            s.stability, t.stability
-        ):
+    for i in np.flatnonzero(np.diff(n_unstable)):
+        (a, before), (b, after) = rows[i], rows[i + 1]
+        if before is None and after is None and "marginal" not in stability[i : i + 2]:
             p = system.free[0]
             between = f"{p.show(p.value(float(a.y[0])))} and {p.show(p.value(float(b.y[0])))}"
             found.append(
-                f"{abs(s.n_unstable - t.n_unstable)} eigenvalues pass the axis together between {p.name} = {between}: "
-                "a point of higher multiplicity, not located"
+                f"{abs(n_unstable[i + 1] - n_unstable[i])} eigenvalues pass the axis together between "
+                f"{p.name} = {between}: a point of higher multiplicity, not located"
             )
     return found
 
@@ -234,7 +262,7 @@ def _frozen(data: Any) -> Array:
 
 
 def _special_points(
-    branch: Branch, rows: Sequence[tuple[CurvePoint, Located | None]]
+    branch: Branch, rows: Sequence[tuple[CurvePoint, Located | None]], spectra: Sequence[Spectrum | None]
 ) -> list[SpecialPoint]:
     counts: dict[str, int] = {}
     found = []
@@ -243,7 +271,10 @@ def _special_points(
             continue
         counts[e.kind] = counts.get(e.kind, 0) + 1
         label = f"{e.kind}{counts[e.kind]}"
-        found.append(special_point(branch.row(i), e, label, i, branch.free, branch.kind))
+        known = spectra[i]
+        assert known is not None  # only points inside a step wait for theirs
+        row = branch.row_with(i, known.eigenvalues)
+        found.append(special_point(row, e, label, i, branch.free, branch.kind))
     return found
 
 

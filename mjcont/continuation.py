@@ -23,9 +23,11 @@ from mjcont.numerics.equilibria import (
     zero_detector,
 )
 from mjcont.numerics.events import Detector, Located, ScalarZero
+from mjcont.numerics.longsteps import LongSteps
 from mjcont.numerics.newton import Corrected, find_start, solve
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
+from mjcont.numerics.stability import negative_stiffness
 from mjcont.numerics.system import Free, System
 from mjcont.numerics.trace import Walker
 
@@ -258,7 +260,9 @@ def _prepare(
     system = System(problem, values, [Free(parameter, low, high, problem.parameter(parameter).unit)])
     neutral: list[Located] = []
     detectors = equilibrium_detectors(system, settings, neutral, zeros or {})
-    walker = Walker(system, settings, detectors, point_stop(problem, system, stop, limits or {}))
+    walker = Walker(
+        system, settings, detectors, point_stop(problem, system, stop, limits or {}), long=long_steps(system, settings)
+    )
     origin = f"{origin}, by Newton" if found.method == "newton" else f"{origin}, by damped motion to rest"
     return _Prepared(walker, found.x, f"from {origin}", neutral, notes)
 
@@ -351,6 +355,13 @@ def equilibrium_detectors(
         monitor = monitor_of(system.problem, name, value)
         detectors.append(zero_detector(system, monitor, f"{name} = {value:g}", settings))
     return detectors
+
+
+def long_steps(system: System, settings: Settings) -> LongSteps | None:
+    """Return what takes long steps and fills them, where points that differ in the parameter are evaluated together."""
+    problem: Any = system.problem
+    cheap = getattr(problem, "passive", False) and problem.side_by_side(system.names[0])
+    return LongSteps(system, settings, negative_stiffness) if cheap else None
 
 
 def monitor_of(problem: Any, name: str, value: float) -> Callable[[Array, Values], float]:

@@ -14,6 +14,9 @@ from mjcont.quantities import Parameter
 from mjcont.sides import difference_rule, one_sided, parameter_rate
 from mjcont.writer import FieldWriter
 
+# states whose derivatives share a batch, where they have few degrees of freedom
+_TOGETHER, _SMALL = 4, 40
+
 
 @dataclass(slots=True)
 class Derivatives:
@@ -74,6 +77,57 @@ class Derivatives:
                 ctrl[k, target.index] += target.factor * steps[-1]
         rows = self.evaluator.forces(states, ctrl=ctrl)
         return rows[:count], (rows[count:] - rows[0]) / np.array(steps)[:, None]
+
+    def side_by_side(self, name: str) -> bool:
+        """Whether rows of one batch may differ in a parameter."""
+        return not self.evaluator.nonsmooth and self.writer.alone(self.parameters, name)
+
+    def _controls(self, values: Values, name: str, column: Array) -> Array:
+        """Return controls (m, nu) with a parameter's value of each row, after writing the other values."""
+        self.writer.write(self.parameters, values)
+        ctrl = np.empty((len(column), self.evaluator.model.nu))
+        ctrl[:] = self.writer.inputs.ctrl
+        for target in self.parameters[name].targets:
+            ctrl[:, target.index] += target.factor * (column - values[name])[:, None]
+        return ctrl
+
+    def along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return forces at states (m, nq), a parameter having a value of its own in each (m,), shape (m, nv)."""
+        if self.side_by_side(name):
+            return self.evaluator.forces(states, ctrl=self._controls(values, name, column)).copy()
+        found = np.empty((len(states), len(self.scale)))
+        for i, value in enumerate(column.tolist()):
+            self.writer.write(self.parameters, {**values, name: value})
+            found[i] = self.evaluator.forces(states[i][None])[0]
+        return found
+
+    def linearize_along(
+        self, states: Array, values: Values, name: str, column: Array
+    ) -> tuple[Array, Array, Array] | None:
+        """Return forces (m, nv) and their derivatives in the state (m, nv, nv) and in a parameter (m, nv).
+
+        The parameter has a value of its own in each state (m, nq). None where a batch cannot tell.
+        """
+        if not self.side_by_side(name):
+            return None
+        rule, n = stencil(False), len(self.scale)
+        h = self.rule(name, float(column[0]))[1]
+        steps = np.zeros((2 * n + 2, n))
+        steps[1:-1] = jacobian_steps(self.scale, rule)
+        controls = self._controls(values, name, np.repeat(column, len(steps)))
+        for target in self.parameters[name].targets:
+            controls[len(steps) - 1 :: len(steps), target.index] += target.factor * h
+        moved = self.moved(np.repeat(states, len(steps), axis=0), np.tile(steps, (len(states), 1)))
+        rows, at = np.empty((len(states), len(steps), n)), 0
+        together = _TOGETHER if n <= _SMALL else 1
+        while at < len(states):  # batches of few sizes only
+            count = together if len(states) - at >= together else 1
+            part = slice(at * len(steps), (at + count) * len(steps))
+            rows[at : at + count] = self.evaluator.forces(moved[part], ctrl=controls[part]).reshape(count, -1, n)
+            at += count
+        f = rows[:, 0]
+        jac = (rows[:, 1 : n + 1] - rows[:, n + 1 : -1]) * (rule.weights[0] / (rule.step * self.scale))[:, None]
+        return f, jac.transpose(0, 2, 1), (rows[:, -1] - f) / h
 
     def rule(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""

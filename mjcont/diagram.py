@@ -15,6 +15,7 @@ from mjcont.continuation import (
     continue_equilibria,
     equilibrium_detectors,
     find_equilibrium,
+    long_steps,
     make_settings,
 )
 from mjcont.errors import BoundsError, MjcontError
@@ -122,7 +123,8 @@ def _through(
     lead = tangent[system.n] if abs(tangent[system.n]) > 1e-6 else tangent[np.argmax(np.abs(tangent))]
     tangent = tangent if lead > 0 else -tangent
     neutral: list[Located] = []
-    walker = Walker(system, settings, equilibrium_detectors(system, settings, neutral, {}))
+    detectors = equilibrium_detectors(system, settings, neutral, {})
+    walker = Walker(system, settings, detectors, long=long_steps(system, settings))
     halves: list[Trace] = []
     for sign in (-1.0, 1.0):
         if halves and halves[0].end.status in (Status.CLOSED, Status.INTERRUPTED):
@@ -156,7 +158,7 @@ def _away(system: System, a: CurvePoint, b: CurvePoint) -> bool:
 
 def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool:
     """Whether two halves are images of each other: at equal parameter, equal spectra but different states."""
-    from mjcont.numerics.equilibria import spectrum_of
+    from mjcont.numerics.stability import spectrum_of
 
     if not minus or len(minus) != len(plus):
         return False

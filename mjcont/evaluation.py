@@ -5,6 +5,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
+from mjcont.dampers import Dampers
 from mjcont.kinks import Kinks
 from mjcont.numerics.problem import Array
 from mjcont.rows import ConstrainedRows, Rows
@@ -32,6 +33,7 @@ class Evaluator:
         self._kinks = Kinks.of(model)
         self._constrained = ConstrainedRows(model, self._kinks) if constrained else None
         self._last: Rows | ConstrainedRows | None = self._constrained
+        self._dampers = None if self.nonsmooth else Dampers.of(model)
         self._batches: dict[int, Rows] = {}
         self._data = mujoco.MjData(model)
         self._forces = self._data.qfrc_smooth[None]
@@ -101,6 +103,8 @@ class Evaluator:
 
     def dampings(self, states: Array, scale: Array) -> Array:
         """Return `damping` at many states of a model without drag and kinks, (m, nv, nv)."""
+        if self._dampers is not None:
+            return np.array([self._dampers.matrix(self.position(x)) for x in states])
         n, found = self.model.nv, np.empty((len(states), self.model.nv, self.model.nv))
         steps = np.concatenate([np.diag(scale), -np.diag(scale)])
         many = max(_MANY_ROWS // (2 * n), 1)
@@ -139,8 +143,11 @@ class Evaluator:
     def damping(self, x: Array, scale: Array) -> Array:
         """Return -d forces/dv at rest, (nv, nv), centred: exact for linear dampers, and for drag that is quadratic.
 
-        Where such a velocity releases a contact or saturates an actuator, smaller ones are taken.
+        Where such a velocity releases a contact or saturates an actuator, smaller ones are taken. Of a model with
+        nothing but dampers on joints and along actuators the matrix is computed without differences.
         """
+        if self._dampers is not None and not self.writer.failure:
+            return self._dampers.matrix(self.position(x))
         for size in _DRAG_STEPS if self._drag else _VELOCITY_STEPS:
             found, smooth = self._damping(x, size * scale)
             if self._drag:

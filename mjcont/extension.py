@@ -10,7 +10,7 @@ import numpy as np
 
 from mjcont.branch import Branch, SpecialPoint
 from mjcont.collect import Progress, build_branch, ordered_rows, reporter
-from mjcont.continuation import check_bounds, equilibrium_detectors, make_settings
+from mjcont.continuation import check_bounds, equilibrium_detectors, long_steps, make_settings
 from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.loci import default_ends, locus_detectors
 from mjcont.numerics.arclength import CurvePoint, first_point
@@ -112,7 +112,8 @@ def _segment(
     neutral: list[Any] = []
     zeros = branch.settings.get("zeros", {})
     if branch.kind == "equilibria":
-        walker = Walker(system, settings, equilibrium_detectors(system, settings, neutral, zeros))
+        detectors = equilibrium_detectors(system, settings, neutral, zeros)
+        walker = Walker(system, settings, detectors, long=long_steps(system, settings))
     else:
         kind = branch.kind.removesuffix(" locus")
         stop = unfolding_stop(system) if kind == "BP" else None

@@ -58,6 +58,19 @@ class Leg:
         """Return f at x moved by each row of steps, (m, n)."""
         return self.problem.residuals(x, self.at(values), steps)
 
+    def side_by_side(self, name: str) -> bool:
+        """Return False: a fraction moves several parameters."""
+        del name
+        return False
+
+    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return f at states (m, nq), a parameter having a value of its own in each (m,), shape (m, n)."""
+        return np.array([self.residual(x, {**values, name: v}) for x, v in zip(states, column.tolist(), strict=True)])
+
+    def linearize_along(self, states: Array, values: Values, name: str, column: Array) -> None:
+        """Return None: a fraction moves several parameters."""
+        del states, values, name, column
+
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
     ) -> Linearization:
@@ -109,6 +122,10 @@ class Leg:
         """Return observables."""
         at = self.at(values) if isinstance(values, Mapping) else [self.at(v) for v in values]
         return self.problem.measure(states, at, names)
+
+    def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return all observables, a parameter having a value of its own in each state (m,)."""
+        return self.measure(states, [{**values, name: v} for v in column.tolist()])
 
 
 def unwrapped(branch: Branch) -> Branch:

@@ -20,10 +20,10 @@ from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.escape import Landing, escape
 from mjcont.legs import FRACTION, Leg, unwrapped
 from mjcont.numerics.arclength import CurvePoint
-from mjcont.numerics.equilibria import spectrum_of
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.spectrum import quadratic_eigenvalues
+from mjcont.numerics.stability import spectrum_of
 from mjcont.numerics.system import Free, Local, System
 from mjcont.numerics.trace import Walker
 from mjcont.pathresults import Jump, LoadPath, Segment, sliced

@@ -11,7 +11,7 @@ parameter values: they are arguments of every method.
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 from weakref import WeakSet
@@ -31,10 +31,10 @@ from mjcont.observables import model_observables
 from mjcont.parameters import Declaration, collect_parameters, declared_parameter
 from mjcont.paths import bush_names
 from mjcont.quantities import Observable, Parameter
+from mjcont.readings import Readings
 from mjcont.writer import FieldWriter
 
-_OWNED = ("_loaded", "_observed", "_model", "_writer", "_sensor_writer", "_sensor_data", "_evaluator", "nonsmooth",
-          "_derivatives")
+_OWNED = ("_loaded", "_model", "_writer", "_readings", "_evaluator", "nonsmooth", "_derivatives")
 
 
 class Mechanism:
@@ -95,13 +95,13 @@ class Mechanism:
 
     def _own(self, model: mujoco.MjModel, evaluations: int = 0) -> None:
         """Take a model: one copy for residuals, one for observables, one as loaded."""
-        self._loaded, self._observed, self._model = loading.copy_model(model), model, loading.evaluation_copy(model)
-        self._writer, self._sensor_writer = self.writer(self._model), self.writer(self._observed)
-        self._sensor_data = mujoco.MjData(self._observed)
+        self._loaded, self._model = loading.copy_model(model), loading.evaluation_copy(model)
+        self._writer = self.writer(self._model)
+        self._readings = Readings(model, self.parameters, self.writer(model), self.constrained)
         self._evaluator = Evaluator(self._model, self._writer, self.constrained, evaluations)
         self.nonsmooth = self._evaluator.nonsmooth
         self._derivatives = Derivatives(
-            self._evaluator, self._writer, self.parameters, self.state_scale, self._moved
+            self._evaluator, self._writer, self.parameters, self.state_scale, self.retract_each
         )
         for other in self._kin:
             other.__dict__.update({name: self.__dict__[name] for name in _OWNED})
@@ -209,7 +209,21 @@ class Mechanism:
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return the residual at x moved by each row of `steps` (m, nv), shape (m, nv)."""
         self._writer.write(self.parameters, values)
-        return self._evaluator.forces(self._moved(x, steps)).copy()
+        return self._evaluator.forces(self.retract_each(x, steps)).copy()
+
+    def side_by_side(self, name: str) -> bool:
+        """Whether states that differ in a parameter are evaluated in one batch: the forces are smooth, it a control."""
+        return not self._held and self._derivatives.side_by_side(name)
+
+    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return the residual at states (m, nq), a parameter having a value of its own in each (m,), shape (m, nv)."""
+        return self._derivatives.along(states, values, name, column)
+
+    def linearize_along(
+        self, states: Array, values: Values, name: str, column: Array
+    ) -> tuple[Array, Array, Array] | None:
+        """Return the residual and its derivatives in the state and in a parameter; arguments as `residuals_along`."""
+        return None if self._held else self._derivatives.linearize_along(states, values, name, column)
 
     def acceleration(self, qpos: Array, qvel: Array, values: Values | None = None) -> Array:
         """Return qacc at a state of motion, (nv,), in m/s^2 and rad/s^2."""
@@ -260,7 +274,7 @@ class Mechanism:
         """Return (v, qacc) at steps (m, 2 nv) of position and velocity around rest at x, shape (m, 2 nv)."""
         self._writer.write(self.parameters, values)
         velocity = steps[:, self.n :]
-        return np.hstack([velocity, self._evaluator.accelerations(self._moved(x, steps[:, : self.n]), velocity)])
+        return np.hstack([velocity, self._evaluator.accelerations(self.retract_each(x, steps[:, : self.n]), velocity)])
 
     def periods(self, x: Array, values: Values) -> Array:
         """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
@@ -314,10 +328,12 @@ class Mechanism:
         mujoco.mj_differentiatePos(self._model, step, 1.0, x0, x1)
         return step
 
-    def _moved(self, x: Array, steps: Array) -> Array:
+    def retract_each(self, states: Array, steps: Array) -> Array:
+        """Return states (m, nq), or one (nq,), moved by the rows of tangent steps (m, nv)."""
         if self._flat:
-            return x + steps
-        return np.array([self.retract(x, s) for s in steps])
+            return states + steps
+        every = np.broadcast_to(states, (len(steps), self.nq))
+        return np.array([self.retract(x, s) for x, s in zip(every, steps, strict=True)])
 
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""
@@ -355,18 +371,11 @@ class Mechanism:
     ) -> Array:
         """Return observables for states (m, nq), at rest unless velocities (m, nv) are given; default all of them."""
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
-        out = np.full((len(states), len(chosen)), np.nan)
-        data = self._sensor_data
-        for i, x in enumerate(states):
-            self._sensor_writer.write(self.parameters, values if isinstance(values, Mapping) else values[i])
-            if self._sensor_writer.failure:
-                continue
-            data.qpos[:] = x
-            data.qvel[:] = 0.0 if velocities is None else velocities[i]
-            self._sensor_writer.inputs.put(data)
-            mujoco.mj_forward(self._observed, data)
-            out[i] = [o.function(self._observed, data) for o in chosen]
-        return out
+        return self._readings.read(chosen, states, values, velocities)
+
+    def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return all observables at rest in states (m, nq), a parameter having a value of its own in each (m,)."""
+        return self._readings.read_along(list(self.observables.values()), states, values, name, column)
 
     # -- states ----------------------------------------------------------------------------------------------
 

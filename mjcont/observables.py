@@ -5,8 +5,7 @@ Sensor cut-off, noise and delay are ignored: the raw value is read from a copy o
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -29,12 +28,9 @@ _UNITS = {
 }
 
 
-def _reader(address: int) -> Callable[[Any, Any], float]:
-    return lambda model, data: float(data.sensordata[address])
-
-
-def _joint_reader(address: int) -> Callable[[Any, Any], float]:
-    return lambda model, data: float(data.qpos[address])
+def _entry(name: str, unit: str, field: str, index: int) -> Observable:
+    """Return the observable that is an entry of a field of MuJoCo's data."""
+    return Observable(name, unit, lambda model, data: float(getattr(data, field)[index]), (field, index))
 
 
 def joint_unit(model: mujoco.MjModel, joint: int) -> str:
@@ -82,7 +78,7 @@ def model_observables(model: mujoco.MjModel) -> dict[str, Observable]:
         unit, start, size = sensor_unit(model, s), int(model.sensor_adr[s]), int(model.sensor_dim[s])
         for k in range(size):
             label = name if size == 1 else f"{name}[{k}]"
-            found[label] = Observable(label, unit, _reader(start + k))
+            found[label] = _entry(label, unit, "sensordata", start + k)
     aliases: dict[str, Observable] = {}
     for declaration in declarations(model):
         source = declaration.paths[0]
@@ -91,13 +87,13 @@ def model_observables(model: mujoco.MjModel) -> dict[str, Observable]:
             if sensor not in found:
                 raise unknown_name("sensor", sensor, found)
             unit = declaration.unit or found[sensor].unit
-            aliases[declaration.name] = Observable(declaration.name, unit, found[sensor].function)
+            aliases[declaration.name] = replace(found[sensor], name=declaration.name, unit=unit)
     found = aliases | found
     for j in range(model.njnt):
         if mujoco.mjtJoint(model.jnt_type[j]) in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
             name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, j) or f"joint{j}"
             if name not in found:
-                found[name] = Observable(name, joint_unit(model, j), _joint_reader(int(model.jnt_qposadr[j])))
+                found[name] = _entry(name, joint_unit(model, j), "qpos", int(model.jnt_qposadr[j]))
     return found
 
 

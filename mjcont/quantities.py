@@ -165,11 +165,15 @@ class Parameter:
 
 @dataclass(frozen=True, slots=True)
 class Observable:
-    """A named scalar read from a state: `function(model, data)` for a Mechanism, in `unit`."""
+    """A named scalar read from a state: `function(model, data)` for a Mechanism, in `unit`.
+
+    `source` is the field of MuJoCo's data and the entry in it, where the observable is no more than that.
+    """
 
     name: str
     unit: str
     function: Callable[[Any, Any], float]
+    source: tuple[str, int] | None = None
 
 
 def default_bounds(value: float, unit: str = "") -> tuple[float, float]:

@@ -23,6 +23,8 @@ _RIGID = 1e-9
 _NOTHING = 1e-12
 _SAME = 1e-6
 _STATES = 12
+# states after which it may be plain already that something opposes every motion
+_EARLY = (0, 3, 6)
 _STIFF = 1e-5  # a soft constraint stiffens with its violation, which differences see as a force
 
 
@@ -69,6 +71,16 @@ def _cross(v: np.ndarray) -> np.ndarray:
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 
+def _stacked(barred: list[np.ndarray], work: list[np.ndarray], largest: float) -> np.ndarray:
+    """Return what opposes the six rigid motions, a row for each velocity that the joints bar and each force."""
+    return np.concatenate([*barred, np.array(work) / (largest or 1.0)])
+
+
+def _least(barred: list[np.ndarray], work: list[np.ndarray], largest: float) -> float:
+    """Return a lower bound of the least singular value of what opposes rigid motions, for forces ten times as large."""
+    return float(np.linalg.svd(_stacked(barred, work, 10.0 * largest), compute_uv=False)[-1])
+
+
 def zero_modes(
     mechanism: Any,
     model: mujoco.MjModel,
@@ -99,7 +111,9 @@ def zero_modes(
         barred.append((jac @ z - moved) / np.abs(moved).max())
         work.append(force @ z / (np.abs(z).max() or 1.0))
         largest = max(largest, np.abs(force).max())
-    opposed = np.concatenate([*barred, np.array(work) / (largest or 1.0)])
+        if among is None and k in _EARLY and _least(barred, work, largest) > _RIGID:
+            return ()  # what opposes every motion here does so whatever other states add
+    opposed = _stacked(barred, work, largest)
     if among is None:
         _, sizes, vh = np.linalg.svd(opposed, full_matrices=False)
         names = _named(vh[sizes <= _RIGID])

@@ -28,6 +28,7 @@ class Rows:
         self._inputs: list[tuple[Array, Array]] | None = None
         self._forces = self._batch.bind("qfrc_smooth")
         self._acceleration = self._batch.bind("qacc")
+        self._fields: dict[str, Array] = {}
         self._told_apart = {f: self._batch.bind(f) for f in kinks.fields} if kinks is not None else {}
 
     def forward(
@@ -53,6 +54,12 @@ class Rows:
     def acceleration(self) -> Array:
         """Return qacc of the last evaluation, a live view (m, nv)."""
         return self._acceleration
+
+    def field(self, name: str) -> Array:
+        """Return a field of the data, a live view (m, ...): filled by evaluations after it was first asked for."""
+        if name not in self._fields:
+            self._fields[name] = self._batch.bind(name)
+        return self._fields[name]
 
     @property
     def codes(self) -> Array:

@@ -118,6 +118,19 @@ class VectorField:
         """Return f at x plus each row of `steps`, (m, n)."""
         return np.array([self.residual(x + s, values) for s in steps])
 
+    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return f at states (m, n), a parameter having a value of its own in each (m,), shape (m, n)."""
+        at = dict(values)
+        found = np.empty((len(states), self.n))
+        for i, value in enumerate(column.tolist()):
+            at[name] = value
+            found[i] = self.residual(states[i], at)
+        return found
+
+    def linearize_along(self, states: Array, values: Values, name: str, column: Array) -> None:
+        """Return None: functions are evaluated one state after the other."""
+        del states, values, name, column
+
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
     ) -> Linearization:
@@ -155,6 +168,10 @@ class VectorField:
         """Return x + step."""
         return x + step
 
+    def retract_each(self, states: Array, steps: Array) -> Array:
+        """Return states + steps, (m, n)."""
+        return states + steps
+
     def difference(self, x1: Array, x0: Array) -> Array:
         """Return x1 - x0."""
         return x1 - x0
@@ -176,6 +193,10 @@ class VectorField:
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
         per_row = [values] * len(states) if isinstance(values, Mapping) else values
         return np.array([[o.function(v, x) for o in chosen] for x, v in zip(states, per_row, strict=True)])
+
+    def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return all observables for states (m, n), a parameter having a value of its own in each (m,)."""
+        return self.measure(states, [{**values, name: v} for v in column.tolist()])
 
     def __str__(self) -> str:
         """List parameters and components."""

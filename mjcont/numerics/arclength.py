@@ -1,20 +1,23 @@
 """Pseudo-arclength continuation: one step, and the loop that repeats it.
 
-The stepper predicts on the cubic through the last two points with their tangents and corrects orthogonally to the
-tangent. Steps are chosen from the contraction of the corrector and from the angle between successive tangents; a step
+The stepper predicts on Hermite's polynomial through the last points with their tangents and corrects orthogonally to
+the tangent. Steps are chosen from the contraction of the corrector and from the angle between successive tangents; a step
 is refused when the tangent turns too far or the corrector wanders, so that a neighbouring branch is not jumped to.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from scipy import sparse
+from scipy.optimize import brentq
 
 from mjcont.numerics.bordered import Factored, border, null_vectors
+from mjcont.numerics.hermite import arc, combine, hermite, lagrange
 from mjcont.numerics.newton import Corrected, correct, length, undefined, with_row
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
@@ -26,8 +29,27 @@ _GROWTH = 2.0
 # a parameter that moves by less along the tangent has no direction: the start is a fold, and noise would decide
 _AT_FOLD = 1e-5
 _PAST = 2
+# how far behind a start the points lie from which the other direction is predicted
+_BEHIND = 0.16
 # the contraction of the last corrector counts as this many times worse for the next
 _TRUST = 3.0
+
+
+@dataclass(frozen=True, slots=True)
+class Earlier:
+    """A point before another on the same curve.
+
+    Attributes
+    ----------
+    s : its arclength.
+    step : (n + k,) scaled step to it from the later point.
+    tangent, jac : as in `CurvePoint`.
+    """
+
+    s: float
+    step: Array
+    tangent: Array
+    jac: Any
 
 
 @dataclass(slots=True)
@@ -45,8 +67,7 @@ class CurvePoint:
     error : scaled residual.
     angle : turning of the tangent since the last point, rad.
     rate : contraction of the corrector's last step.
-    back : (n + k,) scaled step from here to the point before, and its tangent; None at the start.
-    past : (s, G_z) of up to two points before, the latest first.
+    past : up to two points before, the latest first.
     extra : what detectors keep of the point (test values, spectrum).
     """
 
@@ -62,8 +83,7 @@ class CurvePoint:
     contraction: float = 0.0
     iterations: int = 0
     rate: float = math.inf
-    back: tuple[Array, Array] | None = None
-    past: tuple[tuple[float, Array], ...] = ()
+    past: tuple[Earlier, ...] = ()
     extra: dict[str, Any] = field(default_factory=dict)
 
 
@@ -123,18 +143,16 @@ def tangent_at(system: System, local: Local, y: Array) -> Array:
 
 
 def predict(point: CurvePoint, h: float) -> Array:
-    """Return the scaled step to the point h ahead on the cubic through the last two points and their tangents.
+    """Return the scaled step to the point h ahead on Hermite's polynomial through the last points and their tangents.
 
-    Its error is of fourth order in h. With bushes of stiffness k a prediction that opens the pins by d loads them
-    with k d, so a high order is what allows long steps with stiff joints.
+    With bushes of stiffness k a prediction that opens the pins by d loads them with k d, so a high order is what
+    allows long steps with stiff joints.
     """
-    if point.back is None:
+    if not point.past:
         return h * point.tangent
-    chord, before = point.back
-    size = length(chord)
-    bend = (chord + size * point.tangent) / size**2
-    cubic = (before - point.tangent) / size**2 + (2.0 / size) * bend
-    return h * point.tangent + h**2 * (bend + size * cubic) + h**3 * cubic
+    values, slopes = hermite([0.0, *(e.s - point.s for e in point.past)], h)
+    steps, tangents = (e.step for e in point.past), (e.tangent for e in point.past)
+    return combine([*slopes, *values[1:]], [point.tangent, *tangents, *steps])
 
 
 def _matrix_ahead(point: CurvePoint, h: float) -> Array:
@@ -144,15 +162,14 @@ def _matrix_ahead(point: CurvePoint, h: float) -> Array:
     """
     if not point.past:
         return point.jac
-    (s1, j1), *older = point.past
-    ahead, a = point.s + h, point.s
-    if not older:
-        t = h / (a - s1)
-        return point.jac + t * (point.jac - j1)
-    s2, j2 = older[0]
-    w0 = (ahead - s1) * (ahead - s2) / ((a - s1) * (a - s2))
-    w1 = (ahead - a) * (ahead - s2) / ((s1 - a) * (s1 - s2))
-    return w0 * point.jac + w1 * j1 + (1.0 - w0 - w1) * j2
+    weights = lagrange([0.0, *(e.s - point.s for e in point.past)], h)
+    return combine(weights, [point.jac, *(e.jac for e in point.past)])
+
+
+def remembered(point: CurvePoint, step: Array) -> tuple[Earlier, ...]:
+    """Return the past of a point that lies a scaled step from `point`."""
+    older = (Earlier(e.s, e.step - step, e.tangent, e.jac) for e in point.past[: _PAST - 1])
+    return (Earlier(point.s, -step, point.tangent, point.jac), *older)
 
 
 def advance(
@@ -175,19 +192,26 @@ def advance(
     wandered = length(chord - prediction)
     if wandered > _WANDER * abs(h):
         return "the corrector wandered off the prediction"
-    new = point_from(c, point.tangent, point.s + abs(h))
-    new.back = (-chord, point.tangent)
-    if extrapolated:
-        new.past = ((point.s, point.jac), *point.past[: _PAST - 1])
+    new = point_from(c, point.tangent, point.s)
+    new.s += length(chord) if system.conditions else arc(length(chord), math.cos(new.angle))
+    new.past = remembered(point, chord)[: 1 if system.conditions else _PAST]
     if new.angle > settings.angle_max:
         return f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg"
     return new
 
 
-def next_step(h: float, new: CurvePoint, settings: Settings) -> float:
+def next_step(h: float, new: CurvePoint, settings: Settings, growth: float = _GROWTH) -> float:
     """Return the next step from the turning angle and the contraction seen."""
     by_angle = settings.angle / max(new.angle, 1e-3 * settings.angle)
-    return min(h * min(by_angle, by_contraction(new), _GROWTH), settings.ds_max)
+    return min(h * min(by_angle, by_contraction(new, growth), growth), settings.ds_max)
+
+
+def _slope(system: System, old: CurvePoint, new: CurvePoint, index: int) -> tuple[float, float, float]:
+    """Return a, p, q of the slope a + 2 p t + q t^2 of y[index] on the cubic through two points, t from 0 to 1."""
+    i = system.n + index
+    a, b = float(old.tangent[i]), float(new.tangent[i])
+    mean = float(system.difference(new.x, new.y, old.x, old.y)[i]) / (new.s - old.s)
+    return a, 3.0 * mean - 2.0 * a - b, 3.0 * (a + b - 2.0 * mean)
 
 
 def may_turn_twice(system: System, old: CurvePoint, new: CurvePoint, index: int) -> bool:
@@ -196,32 +220,62 @@ def may_turn_twice(system: System, old: CurvePoint, new: CurvePoint, index: int)
     Judged on the cubic through both points with their tangents.
     """
     i = system.n + index
-    a, b = old.tangent[i], new.tangent[i]
-    if a * b <= 0:
+    if old.tangent[i] * new.tangent[i] <= 0 or new.s <= old.s:
         return False
-    chord = system.difference(new.x, new.y, old.x, old.y) if new.back is None else -new.back[0]
-    mean = chord[i] / (new.s - old.s)
-    # derivative of the cubic: a + 2 (3 mean - 2 a - b) t + 3 (a + b - 2 mean) t^2
-    p, q = 3.0 * mean - 2.0 * a - b, 3.0 * (a + b - 2.0 * mean)
+    a, p, q = _slope(system, old, new, index)
     t = -p / q if q else -1.0
     return bool(0.0 < t < 1.0 and (a + p * t) * a < 0)
 
 
-def by_contraction(new: CurvePoint) -> float:
+def turning_fraction(system: System, old: CurvePoint, new: CurvePoint, index: int) -> float:
+    """Return where in a step y[index] turns, on the cubic through both points with their tangents."""
+    a, p, q = _slope(system, old, new, index)
+    root = math.sqrt(max(p * p - a * q, 0.0))
+    candidates = [a / d for d in (-p - root, -p + root) if d]  # the roots of a + 2 p t + q t^2, without cancellation
+    inside = [t for t in candidates if 0.0 <= t <= 1.0]
+    return inside[0] if len(inside) == 1 else 0.5
+
+
+def by_contraction(new: CurvePoint, growth: float = _GROWTH) -> float:
     """Return the factor by which the contraction of the corrector lets the step grow."""
-    return math.sqrt(_CONTRACTION / max(new.contraction, 1e-3)) if new.iterations > 1 else _GROWTH
+    return math.sqrt(_CONTRACTION / max(new.contraction, 1e-3)) if new.iterations > 1 else growth
 
 
-def land(system: System, point: CurvePoint, index: int, target: float, settings: Settings) -> CurvePoint | str:
-    """Return the point near `point` at which y[index] = target."""
+def turned_back(system: System, points: Sequence[CurvePoint]) -> CurvePoint:
+    """Return the first of a curve's points as the start of the other direction, those behind it as its past."""
+    start = points[0]
+    firm = [p for p in points[1:] if "interior" not in p.extra and p.s <= _BEHIND]
+    chosen = [firm[(len(firm) - 1) // 2], firm[-1]] if len(firm) > 1 else firm
+    past = tuple(Earlier(-p.s, system.difference(p.x, p.y, start.x, start.y), -p.tangent, p.jac) for p in chosen)
+    return CurvePoint(
+        start.x, start.y, -start.tangent, -start.sign, start.local, start.jac, 0.0, start.error, past=past
+    )
+
+
+def land(
+    system: System, point: CurvePoint, beyond: CurvePoint, index: int, target: float, settings: Settings
+) -> CurvePoint | str:
+    """Return the point between two at which y[index] = target, sought on the cubic through both."""
     row = np.zeros(system.n + system.k)
     row[system.n + index] = 1.0
-    slope = point.tangent[system.n + index]
-    h = (target - point.y[index]) / slope
-    x, y = system.move(point.x, point.y, h * point.tangent)
+    chord = system.difference(beyond.x, beyond.y, point.x, point.y)
+    span = beyond.s - point.s
+
+    def step(t: float) -> Array:
+        values, slopes = hermite([0.0, 1.0], t)
+        return values[1] * chord + span * (slopes[0] * point.tangent + slopes[1] * beyond.tangent)
+
+    missing = target - float(point.y[index])
+    ends = (-missing, float(step(1.0)[system.n + index]) - missing)
+    t = brentq(lambda t: float(step(t)[system.n + index]) - missing, 0.0, 1.0) if ends[0] * ends[1] < 0 else 0.0
+    x, y = system.move(point.x, point.y, step(t))
     y = y.copy()
     y[index] = target
     c = correct(system, x, y, row, None, settings)
     if c.failure:
         return c.failure
-    return point_from(c, point.tangent, point.s + float(np.linalg.norm(system.difference(c.x, c.y, point.x, point.y))))
+    new = point_from(c, point.tangent, point.s)
+    chord = system.difference(c.x, c.y, point.x, point.y)
+    new.s += arc(length(chord), math.cos(new.angle))
+    new.past = remembered(point, chord)
+    return new

@@ -68,6 +68,8 @@ def _becomes(name: str, ends: int) -> str:
 class CornerDetector:
     """Changes of the loaded constraints that a step passes without being refused."""
 
+    structural = False
+
     system: System
     settings: Settings
 

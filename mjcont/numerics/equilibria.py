@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mjcont.numerics import normalform
-from mjcont.numerics.arclength import CurvePoint, advance
+from mjcont.numerics.arclength import CurvePoint, advance, turning_fraction
 from mjcont.numerics.defining import BranchPoint, Fold, Hopf
 from mjcont.numerics.events import (
     Located,
@@ -25,8 +25,9 @@ from mjcont.numerics.events import (
 from mjcont.numerics.newton import Corrected, solve
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
-from mjcont.numerics.spectrum import Spectrum, conservative_spectra, spectrum, symmetric
-from mjcont.numerics.system import Local, System
+from mjcont.numerics.spectrum import Spectrum
+from mjcont.numerics.stability import local_spectrum, negative_stiffness, spectrum_of
+from mjcont.numerics.system import System
 
 _NOT_TRANSVERSE = 1e-6
 # the unfolding of a true branch point vanishes with the square of the error of its location
@@ -36,49 +37,6 @@ _CLOSE = 1e-6
 _SMALL = 1e-4
 _SAME_PAIR = 0.7
 _BRACKET = 1e-9
-
-
-def spectrum_of(point: CurvePoint) -> Spectrum:
-    """Return the spectrum at a point, computed once."""
-    if "spectrum" not in point.extra:
-        point.extra["spectrum"] = local_spectrum(point.local)
-    return point.extra["spectrum"]
-
-
-def negative_stiffness(point: CurvePoint) -> int | None:
-    """Return the number of negative eigenvalues of K, computed once: that of unstable eigenvalues.
-
-    None where it does not decide: for a K that is not symmetric, or a problem whose damping is not known to be
-    passive whatever the state (symmetric, semidefinite C).
-    """
-    if "negative" not in point.extra:
-        count = None
-        if getattr(point.local.problem, "passive", False) and symmetric(point.local.raw_jac):
-            count = int(np.count_nonzero(np.linalg.eigvalsh(point.local.raw_jac) > 0.0))
-        point.extra["negative"] = count
-    return point.extra["negative"]
-
-
-def spectra_of(points: Sequence[CurvePoint]) -> list[Spectrum]:
-    """Return the spectra at points, those that the walk could do without in one go."""
-    late = [p for p in points if "spectrum" not in p.extra and negative_stiffness(p) is not None]
-    if late:
-        problem: Any = late[0].local.problem
-        pencils = problem.pencils([p.x for p in late], [p.local.values for p in late], [p.local.raw_jac for p in late])
-        for point, found in zip(late, conservative_spectra(pencils), strict=True):
-            point.extra["spectrum"] = found
-    return [spectrum_of(p) for p in points]
-
-
-def local_spectrum(local: Local) -> Spectrum:
-    """Return the spectrum at an evaluation, its noise measured from samples of f that differ by rounding."""
-    return spectrum(local.pencil, lambda: rounding_samples(local))
-
-
-def rounding_samples(local: Local) -> Array:
-    """Return f at states a few units in the last place apart, (8, n)."""
-    signs = np.cos(np.arange(8 * local.problem.n, dtype=float)).reshape(8, -1)
-    return local.problem.residuals(local.x, local.values, 2e-15 * signs * local.problem.state_scale)
 
 
 def square_system(system: System, conditions: Sequence[Any], at: Corrected) -> tuple[System, Array]:
@@ -92,6 +50,8 @@ def square_system(system: System, conditions: Sequence[Any], at: Corrected) -> t
 @dataclass(slots=True)
 class BranchPointDetector:
     """Simple branch points, by the sign of det [G_z; t]; a change with no point behind it asks for a shorter step."""
+
+    structural = True
 
     system: System
     settings: Settings
@@ -177,12 +137,17 @@ def fold_detector(system: System, settings: Settings) -> ZeroDetector:
         a = normalform.fold_coefficient(c.local, v, w)
         return {"a": a, "v": v, "w": w}, ""
 
-    return ZeroDetector("LP", system, test, solve_fold, finish, settings)
+    def fraction(old: CurvePoint, new: CurvePoint) -> float:
+        return turning_fraction(system, old, new, 0)
+
+    return ZeroDetector("LP", system, test, solve_fold, finish, settings, structural=True, fraction=fraction)
 
 
 @dataclass(slots=True)
 class HopfDetector:
     """Hopf points, by the number of eigenvalue pairs with positive sum; neutral saddles are told apart."""
+
+    structural = True
 
     system: System
     settings: Settings
@@ -285,6 +250,8 @@ class HopfDetector:
 @dataclass(slots=True)
 class MultipleDetector:
     """Several eigenvalues of a conservative problem that pass zero together: bracketed, not solved for."""
+
+    structural = True
 
     system: System
     settings: Settings

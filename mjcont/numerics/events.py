@@ -56,7 +56,14 @@ class Pole(Exception):
 
 
 class Detector(Protocol):
-    """Finds points of one kind between two successive points of a curve."""
+    """Finds points of one kind between two successive points of a curve.
+
+    Attributes
+    ----------
+    structural : whether nothing changes without a change of the curve's direction, orientation or stability.
+    """
+
+    structural: bool
 
     def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
         """Whether the test function changes between the points."""
@@ -130,6 +137,12 @@ def approximate(system: System, old: CurvePoint, new: CurvePoint, fraction: floa
     return correct(system, x, y, tangent, None, replace(settings, tol=1e-6))
 
 
+def guessed(system: System, old: CurvePoint, new: CurvePoint, fraction: float) -> Corrected:
+    """Return the point at a fraction of a short step as it is interpolated."""
+    x, y, _ = between(system, old, new, fraction)
+    return Corrected(x, y, system.local(x, y), None, 0, 0.0, 0.0, np.inf)
+
+
 def zero_fraction(a: float, b: float) -> float:
     """Return where a linear function with values a, b at 0, 1 vanishes, kept off the ends."""
     if a == b:
@@ -149,7 +162,8 @@ def point_at(system: System, old: CurvePoint, new: CurvePoint, c: Corrected, s: 
 class ZeroDetector:
     """Zeros of a scalar function of a curve point: user zeros, and tests on loci without a system of their own.
 
-    `pinned` builds the square system whose extra condition is the function's vanishing.
+    `solve` follows a point near a zero to the zero itself; `fraction` tells where in a step it lies better than a linear
+    function through the test's values.
     """
 
     kind: str
@@ -160,6 +174,8 @@ class ZeroDetector:
     settings: Settings
     name: str = ""
     differs: Callable[[CurvePoint, CurvePoint], bool] | None = None
+    structural: bool = False
+    fraction: Callable[[CurvePoint, CurvePoint], float] | None = None
     _first: float = 0.0
 
     def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
@@ -179,15 +195,18 @@ class ZeroDetector:
         a, b = self._value(old), self._value(new)
         if self.differs is None and min(abs(a), abs(b)) > _POLE * self._first:
             raise Pole
-        near = approximate(self.system, old, new, zero_fraction(a, b), self.settings)
-        if near.failure:
-            return None
-        c = self.solve(near)
-        if c.failure:
-            return None
-        s = within(self.system, old, new, c)
-        if s is None:
-            return None
+        c = s = None
+        if self.fraction is not None and new.s - old.s <= self.settings.ds_max:
+            c = self.solve(guessed(self.system, old, new, self.fraction(old, new)))
+            s = None if c.failure else within(self.system, old, new, c)
+        if c is None or s is None:
+            near = approximate(self.system, old, new, zero_fraction(a, b), self.settings)
+            if near.failure:
+                return None
+            c = self.solve(near)
+            s = None if c.failure else within(self.system, old, new, c)
+            if s is None:
+                return None
         done = self.finish(c)
         if done is None:
             return None

@@ -11,12 +11,13 @@ from mjcont.numerics import codim2, normalform
 from mjcont.numerics.arclength import CurvePoint
 from mjcont.numerics.bordered import Factored
 from mjcont.numerics.defining import DoubleZero, Fold, FoldCoefficient, Hopf, Transversality
-from mjcont.numerics.equilibria import critical_pairs, critical_square, local_spectrum, spectrum_of, square_system
+from mjcont.numerics.equilibria import critical_pairs, critical_square, square_system
 from mjcont.numerics.events import Detector, ZeroDetector
 from mjcont.numerics.newton import Corrected, solve
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.spectrum import Spectrum
+from mjcont.numerics.stability import local_spectrum, spectrum_of
 from mjcont.numerics.system import Local, System
 
 Finish = Callable[[Corrected], tuple[dict[str, Any], str] | None]

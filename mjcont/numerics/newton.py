@@ -19,7 +19,7 @@ _FIRST, _LATER = 1e5, 1e2
 _POLISH = 3
 _DIVERGING = 2.0
 _NOISE = 1e-6
-_LARGEST_ERROR = 1e-7
+LARGEST_ERROR = 1e-7
 _LARGEST_STEP = 2.0
 
 
@@ -159,7 +159,7 @@ def correct(
             break
         local = system.local(x, y)
     error = system.error(local, x, y)
-    if not error < _LARGEST_ERROR:
+    if not error < LARGEST_ERROR:
         failure = "the corrector stalled away from the curve"
     return Corrected(x, y, local, factored, iterations, ratio, size, error, failure, jac, size / max(last, 1e-300))
 

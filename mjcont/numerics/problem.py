@@ -74,6 +74,16 @@ class Problem(Protocol):
         """Return f at x moved by each row of `steps` (m, n), shape (m, n)."""
         ...
 
+    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return f at states (m, nq), a parameter having a value of its own in each (m,), shape (m, n)."""
+        ...
+
+    def linearize_along(
+        self, states: Array, values: Values, name: str, column: Array
+    ) -> tuple[Array, Array, Array] | None:
+        """Return f (m, n), df/dx (m, n, n) and df/dp (m, n) at such states; None where side by side gains nothing."""
+        ...
+
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
     ) -> Linearization:
@@ -98,6 +108,10 @@ class Problem(Protocol):
 
     def retract(self, x: Array, step: Array) -> Array:
         """Return x moved by a tangent step (n,)."""
+        ...
+
+    def retract_each(self, states: Array, steps: Array) -> Array:
+        """Return states (m, nq), or one (nq,), moved by the rows of tangent steps (m, n)."""
         ...
 
     def difference(self, x1: Array, x0: Array) -> Array:

@@ -56,6 +56,12 @@ class Free:
             return math.exp(min(coordinate * math.log(self.high / self.low), 700.0))
         return coordinate * (self.high - self.low)
 
+    def values(self, coordinates: Array) -> Array:
+        """Return the values at many coordinates."""
+        if self.log:
+            return np.exp(np.minimum(coordinates * math.log(self.high / self.low), 700.0))
+        return coordinates * (self.high - self.low)
+
     def slope(self, coordinate: float) -> float:
         """Return d value / d coordinate."""
         if self.log:
@@ -92,6 +98,10 @@ class Local:
         if self._residual is None:
             self._residual = self.problem.residual(self.x, self.values)
         return self._residual
+
+    def keep(self, residual: Array) -> None:
+        """Take the residual, (n,), computed elsewhere."""
+        self._residual = residual
 
     def _linearize(self) -> Any:
         if self._lin is None:
@@ -206,6 +216,15 @@ class System:
         """Return the evaluation at (x, y)."""
         return Local(self.problem, x, self.values(y), self.names, self.accurate, self.spans)
 
+    def locals_along(self, states: Array, column: Array) -> list[Local]:
+        """Return the evaluations at states (m, nq) of a system with one free parameter, with its values (m,)."""
+        (name,), found = self.names, []
+        for x, value in zip(states, column.tolist(), strict=True):
+            merged = self.base.copy()
+            merged[name] = value
+            found.append(Local(self.problem, x, merged, self.names, self.accurate, self.spans))
+        return found
+
     def _aux(self, y: Array) -> list[Array]:
         parts, at = [], len(self.free)
         for c in self.conditions:
@@ -287,6 +306,11 @@ class System:
     def move(self, x: Array, y: Array, step: Array) -> tuple[Array, Array]:
         """Return (x, y) moved by a scaled step (n + k,)."""
         return self.problem.retract(x, step[: self.n] * self.problem.state_scale), y + step[self.n :]
+
+    def move_each(self, states: Array, coordinates: Array, steps: Array) -> tuple[Array, Array]:
+        """Return states (m, nq), or one (nq,), and coordinates (m, k) moved by the rows of scaled steps (m, n + k)."""
+        moves = steps[:, : self.n] * self.problem.state_scale
+        return self.problem.retract_each(states, moves), coordinates + steps[:, self.n :]
 
     def admissible(self, x: Array, step: Array) -> Array:
         """Return a scaled step without motions that the problem holds (see `rigid`)."""

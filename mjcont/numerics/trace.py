@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -14,8 +15,12 @@ import numpy as np
 from mjcont.numerics.arclength import CurvePoint, advance, by_contraction, land, may_turn_twice, next_step
 from mjcont.numerics.corner import NEAR, cross
 from mjcont.numerics.events import Detector, Located, Retry
+from mjcont.numerics.interior import Interior
+from mjcont.numerics.longsteps import LongSteps
+from mjcont.numerics.newton import length
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
+from mjcont.numerics.stability import tell
 from mjcont.numerics.system import System
 
 # below this step a pair of folds is not looked for between two points
@@ -58,6 +63,22 @@ class Trace:
     end: End = field(default_factory=lambda: End(Status.STOPPED, "not started"))
 
 
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A step of the walk.
+
+    Attributes
+    ----------
+    items : points and special points in order, the step's end last.
+    next : length of the step after it.
+    ending : the end of the curve, if a bound is met at the step's end.
+    """
+
+    items: list[CurvePoint | Located]
+    next: float
+    ending: End | None = None
+
+
 Stop = Callable[[CurvePoint], str | None]
 
 
@@ -70,6 +91,7 @@ class Walker:
     detectors : in the order in which they look at a step; the first may ask for a shorter one.
     stop : returns a sentence to end the curve at a point (limits on observables, a user's callback).
     end_at : kinds of special points that end the curve.
+    long : takes steps longer than the distance of points, which it fills; None for one step a point.
     """
 
     system: System
@@ -77,48 +99,57 @@ class Walker:
     detectors: Sequence[Detector] = ()
     stop: Stop | None = None
     end_at: frozenset[str] = frozenset()
+    long: LongSteps | None = None
     _fresh: bool = field(default=False, init=False)
 
     def walk(self, start: CurvePoint) -> Iterator[CurvePoint | Located | End]:
         """Yield the curve's points after `start`, special points before the point that follows them, and the end."""
         settings, began = self.settings, time.monotonic()
         point, h, count = start, settings.ds, 1
+        if start.past:
+            h = max(h, -0.5 * start.past[-1].s)
         for detector in self.detectors:
             detector.changed(point, point)
         last: dict[str, Located] = {}
         periods = self._periods(start)
         largest = settings.max_size * max(1.0, self._size(start))
         while True:
-            limit = self._limit(point, count, began)
-            if limit is None and self._size(point) > largest:
-                limit = End(Status.RUNS_OFF, f"a state coordinate exceeds {largest:g} times its scale (max_size)")
-            if limit is not None:
-                yield limit
+            if self._size(point) > largest:
+                yield End(Status.RUNS_OFF, f"a state coordinate exceeds {largest:g} times its scale (max_size)")
                 return
-            step = self._step(point, h)
+            limit = self._limit(point, count, began)
+            step = limit or self._step(point, h)
             if isinstance(step, End):
                 yield step
                 return
-            new, h, located, ending = step
-            located = [e for e in located if not self._known(e, last)]
-            for special in located:
-                last[special.kind] = special
-                yield special
-                if special.kind in self.end_at:
-                    yield End(Status.AT_SPECIAL_POINT, f"the curve was to end at a point of kind {special.kind}")
-                    return
-            if ending is None:
-                turns = self._passes(start, point, new, periods)
+            passes = step.ending is None and self._may_pass(start, point, step, periods)
+            for item in step.items:
+                if isinstance(item, Located):
+                    if self._known(item, last):
+                        continue
+                    last[item.kind] = item
+                    yield item
+                    if item.kind in self.end_at:
+                        yield End(Status.AT_SPECIAL_POINT, f"the curve was to end at a point of kind {item.kind}")
+                        return
+                    continue
+                turns = self._passes(start, point, item, periods) if passes else None
                 if turns is not None:
                     yield End(Status.CLOSED, "the curve closes on itself" + (", full turns apart" if turns else ""))
                     return
-            if ending is None or new.s - point.s > _SAME_POINT:
-                yield new
-            if ending is not None:
-                yield ending
+                ended = step.ending is not None and item is step.items[-1]
+                if not ended or item.s - point.s > _SAME_POINT:
+                    yield item
+                point, count = item, count + 1
+                limit = None if item is step.items[-1] else self._limit(point, count, began)
+                if limit is not None:
+                    yield limit
+                    return
+            if step.ending is not None:
+                yield step.ending
                 return
-            self.system.update(new.local, new.y)
-            point, count = new, count + 1
+            self.system.update(point.local, point.y)
+            h = step.next
 
     def _size(self, point: CurvePoint) -> float:
         n = self.system.n  # positions of a free body carry a quaternion beside n coordinates: measure those alone
@@ -142,42 +173,75 @@ class Walker:
         message = self.stop(point) if self.stop is not None else None
         return End(Status.STOPPED, message) if message else None
 
-    def _step(self, point: CurvePoint, h: float) -> tuple[CurvePoint, float, list[Located], End | None] | End:
-        """Return the next point, the step after it, what lies between, and the end if a bound is met."""
+    def _step(self, point: CurvePoint, h: float) -> Step | End:
+        """Return the next step, or the end of a curve that cannot be followed."""
         while True:
-            new = advance(self.system, point, h, self.settings, fresh=self._fresh)
-            reason = new if isinstance(new, str) else ""
-            ending = None
-            if not isinstance(new, str):
-                outside = self._outside(new)
-                if outside is not None:
-                    landed = land(self.system, point, *outside[:2], self.settings)
-                    if isinstance(landed, str):
-                        reason = landed
-                    elif landed.s - point.s > 3.0 * h or landed.angle > self.settings.angle_max:
-                        reason = "the bound was not met along the curve"
-                    else:
-                        new, ending = landed, End(Status.AT_BOUND, outside[2])
-            if not reason and not isinstance(new, str):
-                if not self.system.conditions and h > _SMALL_FOLDS and may_turn_twice(self.system, point, new, 0):
-                    h *= 0.4
-                    continue
-                try:
-                    located = self._between(point, new)
-                except Retry as retry:
-                    reason = str(retry)
-                else:
-                    self._fresh |= new.iterations > 4 and by_contraction(new) < 1.0
-                    return new, next_step(h, new, self.settings), located, ending
+            far = self.long is not None and h > self.settings.ds_max
+            tried = self._try(point, h)
+            if isinstance(tried, Step):
+                return tried
+            if far and self.long is not None:
+                self.long.refused(h)
+            reason, h = tried
             if h < NEAR and not self.system.conditions:
                 crossed = cross(self.system, point, self.settings)
                 if crossed is not None:
-                    return crossed[0], self.settings.ds, [crossed[1]], None
-            if self._fresh or not isinstance(new, str):
-                h *= 0.4
-            self._fresh |= isinstance(new, str)
+                    return Step([crossed[1], crossed[0]], self.settings.ds)
             if h < self.settings.ds_min:
                 return End(Status.STEP_TOO_SMALL, f"step below ds_min at {self._where(point)}: {reason}")
+
+    def _try(self, point: CurvePoint, h: float) -> Step | tuple[str, float]:
+        """Return the step of length h with what lies within, or why it is refused and the length to try instead."""
+        settings = self.long.limits(h) if self.long is not None else self.settings
+        far = h > self.settings.ds_max
+        new = advance(self.system, point, h, settings, fresh=self._fresh and not far)
+        if isinstance(new, str) and far:
+            new = advance(self.system, point, h, settings, fresh=True)
+        if isinstance(new, str):
+            shorter = 0.4 * h if self._fresh or far else h
+            self._fresh |= not far
+            return new, shorter
+        ending = None
+        outside = self._outside(new)
+        if outside is not None:
+            landed = land(self.system, point, new, *outside[:2], settings)
+            if isinstance(landed, str):
+                return landed, 0.4 * h
+            if landed.s - point.s > 3.0 * h or landed.angle > settings.angle_max:
+                return "the bound was not met along the curve", 0.4 * h
+            new, ending = landed, End(Status.AT_BOUND, outside[2])
+        inside = self.long.inside(point, new) if self.long is not None else Interior([])
+        if isinstance(inside, str):
+            return inside, 0.5 * h
+        if not inside.points and not self.system.conditions and h > _SMALL_FOLDS and (
+            may_turn_twice(self.system, point, new, 0)
+        ):
+            return "the parameter may turn twice", 0.4 * h
+        try:
+            items = self._items(point, inside, new)
+        except Retry as retry:
+            return str(retry), 0.4 * h
+        self._fresh |= not far and new.iterations > 4 and by_contraction(new) < 1.0
+        after = next_step(h, new, settings) if self.long is None else self.long.next(h, new, inside)
+        return Step(items, after, ending)
+
+    def _items(self, old: CurvePoint, inside: Interior, new: CurvePoint) -> list[CurvePoint | Located]:
+        """Return the points of a step after the first, with the special points between them."""
+        if not inside.points or self.long is None:
+            return [*self._between(old, new, self.detectors), new]
+        every = [old, *inside.points, new]
+        located: list[Located] = []
+        for i, j in self.long.spans(old, new, inside):
+            found = self._between(every[i], every[j], self.detectors)
+            located += found
+            if j > i + 1 and not found:
+                tell(every[i], every[i + 1 : j], every[j])
+        others = [d for d in self.detectors if not d.structural]
+        for a, b in itertools.pairwise(every) if others else ():
+            located += self._between(a, b, others)
+        if not located:
+            return every[1:]  # type: ignore[return-value]
+        return sorted([*located, *every[1:]], key=lambda e: e.point.s if isinstance(e, Located) else e.s)
 
     def _outside(self, new: CurvePoint) -> tuple[int, float, str] | None:
         for i, p in enumerate(self.system.free):
@@ -187,9 +251,11 @@ class Walker:
                     return i, p.coordinate(bound), f"{p.name} reached its bound {p.show(bound)}"
         return None
 
-    def _between(self, old: CurvePoint, new: CurvePoint) -> list[Located]:
+    def _between(
+        self, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector]
+    ) -> list[Located]:
         located: list[Located] = []
-        for detector in self.detectors:
+        for detector in detectors:
             if detector.changed(old, new):
                 located += detector.locate(old, new, located)
         located = _distinct(located)
@@ -202,6 +268,18 @@ class Walker:
             return np.full(self.system.n, np.inf)
         return problem.periods(start.x, self.system.values(start.y)) / problem.state_scale
 
+    def _may_pass(self, start: CurvePoint, point: CurvePoint, step: Step, periods: Array) -> bool:
+        """Whether the start, or a full turn of it, is as near as a step could pass it."""
+        new = step.items[-1]
+        assert isinstance(new, CurvePoint)
+        if len(step.items) == 1:
+            return True
+        to_start = self.system.difference(start.x, start.y, point.x, point.y)
+        finite = np.isfinite(periods)
+        part = to_start[: self.system.n]
+        part[finite] -= np.round(part[finite] / periods[finite]) * periods[finite]
+        return length(to_start) < 3.0 * (new.s - point.s)
+
     def _passes(self, start: CurvePoint, old: CurvePoint, new: CurvePoint, periods: Array) -> bool | None:
         """Return whether the step from old to new passes the start a full turn away; None if it does not pass it."""
         if old.s < 2.0 * (new.s - old.s) or start.tangent @ new.tangent < math.cos(2.0 * self.settings.angle_max):
@@ -212,10 +290,10 @@ class Walker:
         turns = np.zeros(self.system.n)
         turns[finite] = np.round(to_start[: self.system.n][finite] / periods[finite])
         to_start[: self.system.n][finite] -= turns[finite] * periods[finite]
-        length = float(np.linalg.norm(chord))
-        along = float(to_start @ chord) / length
-        aside = float(np.linalg.norm(to_start - along * chord / length))
-        return bool(turns.any()) if 0.0 < along <= length and aside <= 0.1 * length else None
+        size = length(chord)
+        along = float(to_start @ chord) / size
+        aside = length(to_start - along * chord / size)
+        return bool(turns.any()) if 0.0 < along <= size and aside <= 0.1 * size else None
 
     def _where(self, point: CurvePoint) -> str:
         free = zip(self.system.free, point.y, strict=False)

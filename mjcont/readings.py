@@ -1,0 +1,79 @@
+"""Reading observables: at one state after the other, or at many side by side where sensors and positions are all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import mujoco
+import numpy as np
+
+from mjcont.numerics.problem import Array, Values
+from mjcont.quantities import Observable, Parameter
+from mjcont.rows import Rows
+from mjcont.writer import FieldWriter
+
+# rows of a batch, and the number of states from which on it pays
+_ROWS, _MANY = 32, 8
+
+
+class Readings:
+    """A model of its own from which observables are read.
+
+    `constrained` says that constraints act: their forces depend on what was evaluated before, so that states are
+    read one after the other.
+    """
+
+    def __init__(
+        self, model: mujoco.MjModel, parameters: Mapping[str, Parameter], writer: FieldWriter, constrained: bool
+    ) -> None:
+        self._model, self._parameters, self._writer = model, parameters, writer
+        self._constrained = constrained
+        self._data = mujoco.MjData(model)
+        self._rows: Rows | None = None
+
+    def read(
+        self,
+        chosen: Sequence[Observable],
+        states: Array,
+        values: Sequence[Values] | Values,
+        velocities: Array | None = None,
+    ) -> Array:
+        """Return observables for states (m, nq), at rest unless velocities (m, nv) are given, shape (m, chosen)."""
+        out = np.full((len(states), len(chosen)), np.nan)
+        data = self._data
+        for i, x in enumerate(states):
+            self._writer.write(self._parameters, values if isinstance(values, Mapping) else values[i])
+            if self._writer.failure:
+                continue
+            data.qpos[:] = x
+            data.qvel[:] = 0.0 if velocities is None else velocities[i]
+            self._writer.inputs.put(data)
+            mujoco.mj_forward(self._model, data)
+            out[i] = [o.function(self._model, data) for o in chosen]
+        return out
+
+    def read_along(
+        self, chosen: Sequence[Observable], states: Array, values: Values, name: str, column: Array
+    ) -> Array:
+        """Return observables at rest in states (m, nq), a parameter having a value of its own in each (m,)."""
+        plain = all(o.source is not None for o in chosen) and not self._constrained
+        if len(states) < _MANY or not plain or not self._writer.alone(self._parameters, name):
+            return self.read(chosen, states, [{**values, name: v} for v in column.tolist()])
+        self._writer.write(self._parameters, values)
+        targets = self._parameters[name].targets
+        if self._rows is None:
+            self._rows = Rows(self._model, _ROWS, None)
+        sources = [o.source for o in chosen if o.source is not None]
+        columns = [self._rows.field(field)[:, index] for field, index in sources]
+        out = np.empty((len(states), len(chosen)))
+        for first in range(0, len(states), _ROWS):
+            here = np.minimum(np.arange(first, first + _ROWS), len(states) - 1)
+            ctrl = np.empty((_ROWS, self._model.nu))
+            ctrl[:] = self._writer.inputs.ctrl
+            for target in targets:
+                ctrl[:, target.index] += target.factor * (column[here] - values[name])[:, None]
+            self._rows.forward(states[here], None, self._writer, ctrl)
+            count = min(_ROWS, len(states) - first)
+            for k, read in enumerate(columns):
+                out[first : first + count, k] = read[:count]
+        return out
