@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -136,12 +136,10 @@ class Column:
 class _Deferred:
     """A field that may be given as a function: it is called once, where the field is read first."""
 
-    def __set_name__(self, owner: type, name: str) -> None:
+    def __init__(self, name: str) -> None:
         self._key = f"_{name}"
 
     def __get__(self, instance: Any, owner: type) -> Any:
-        if instance is None:
-            raise AttributeError  # dataclasses: a field without a default
         value = instance.__dict__[self._key]
         if callable(value):
             value = instance.__dict__[self._key] = value()
@@ -183,7 +181,7 @@ class Branch:
     columns: Mapping[str, Column]
     states: Array
     state_labels: Sequence[tuple[str, str]]
-    eigenvalues: Array = cast("Array", _Deferred())  # noqa: RUF009
+    eigenvalues: Array
     stability: Array
     n_unstable: Array
     residuals: Array
@@ -260,7 +258,7 @@ class Branch:
     def row_with(self, index: int, eigenvalues: Array) -> Point:
         """Return a point of the branch by its row, its eigenvalues known."""
         return Point(
-            self._parameters(index),
+            self.parameters_at(index),
             {c.name: float(c.values[index]) for c in self.columns.values() if c.role == "observable"},
             self.states[index].copy(),
             eigenvalues[~np.isnan(eigenvalues)],
@@ -275,7 +273,8 @@ class Branch:
         """Units of all columns."""
         return {c.name: c.unit for c in self.columns.values()}
 
-    def _parameters(self, index: int) -> dict[str, float]:
+    def parameters_at(self, index: int) -> dict[str, float]:
+        """Return the values of all parameters in a row."""
         free = {n: float(self.columns[n].values[index]) for n in self.free}
         return {**self.fixed, **free}
 
@@ -353,3 +352,6 @@ class Branch:
     def settings_json(self) -> str:
         """Return the settings as JSON."""
         return json.dumps(dict(self.settings), sort_keys=True)
+
+
+Branch.eigenvalues = _Deferred("eigenvalues")  # type: ignore[assignment]

@@ -243,7 +243,7 @@ def _unexplained(
     if kind != "equilibria":
         return []
     found = []
-    for i in np.flatnonzero(np.diff(n_unstable)):
+    for i in np.flatnonzero(np.diff(n_unstable)).tolist():
         (a, before), (b, after) = rows[i], rows[i + 1]
         if before is None and after is None and "marginal" not in stability[i : i + 2]:
             p = system.free[0]

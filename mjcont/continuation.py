@@ -13,23 +13,14 @@ from mjcont.branch import Branch, Point, show
 from mjcont.collect import Progress, collect, make_point, run_directions, special_point
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError, unknown_name
 from mjcont.numerics.arclength import CurvePoint, first_point
-from mjcont.numerics.corner import CornerDetector
-from mjcont.numerics.equilibria import (
-    BranchPointDetector,
-    HopfDetector,
-    MultipleDetector,
-    fold_detector,
-    square_system,
-    zero_detector,
-)
-from mjcont.numerics.events import Detector, Located, ScalarZero
-from mjcont.numerics.longsteps import LongSteps
+from mjcont.numerics.equilibria import square_system
+from mjcont.numerics.events import Located, ScalarZero
 from mjcont.numerics.newton import Corrected, find_start, solve
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
-from mjcont.numerics.stability import negative_stiffness
 from mjcont.numerics.system import Free, System
 from mjcont.numerics.trace import Walker
+from mjcont.walkers import equilibrium_walker, monitor_of, point_stop
 
 
 def make_settings(options: Mapping[str, Any]) -> Settings:
@@ -259,9 +250,8 @@ def _prepare(
         raise StartError(f"no equilibrium found from {origin}: {found.failure}")
     system = System(problem, values, [Free(parameter, low, high, problem.parameter(parameter).unit)])
     neutral: list[Located] = []
-    detectors = equilibrium_detectors(system, settings, neutral, zeros or {})
-    walker = Walker(
-        system, settings, detectors, point_stop(problem, system, stop, limits or {}), long=long_steps(system, settings)
+    walker = equilibrium_walker(
+        system, settings, neutral, zeros or {}, point_stop(problem, system, stop, limits or {})
     )
     origin = f"{origin}, by Newton" if found.method == "newton" else f"{origin}, by damped motion to rest"
     return _Prepared(walker, found.x, f"from {origin}", neutral, notes)
@@ -316,62 +306,6 @@ def check_direction(direction: int | None) -> tuple[float, ...]:
     return (-1.0, 1.0) if direction is None else (float(direction),)
 
 
-def point_stop(
-    problem: Any,
-    system: System,
-    stop: Callable[[Point], str | None] | None,
-    limits: Mapping[str, tuple[float, float]],
-) -> Callable[[CurvePoint], str | None] | None:
-    """Return the function that ends a curve where the user's `stop` or a limit on a column says so."""
-    if stop is None and not limits:
-        return None
-    names = [n for n in limits if n not in problem.parameters]
-
-    def check(p: CurvePoint) -> str | None:
-        values = system.values(p.y)
-        measured = dict(zip(names, problem.measure(p.x[None], values, names)[0], strict=True)) if names else {}
-        for name, (low, high) in limits.items():
-            value = float(measured.get(name, values.get(name, 0.0)))
-            if not low <= value <= high:
-                return f"{name} = {value:.6g} left its limits {low:g} .. {high:g}"
-        return stop(make_point(problem, p.x, values)) if stop is not None else None
-
-    return check
-
-
-def equilibrium_detectors(
-    system: System, settings: Settings, neutral: list[Located], zeros: Mapping[str, float]
-) -> list[Detector]:
-    """Return the detectors of a curve of equilibria, the one that guards against other branches first."""
-    detectors: list[Detector] = [
-        BranchPointDetector(system, settings),
-        fold_detector(system, settings),
-        HopfDetector(system, settings, neutral),
-        MultipleDetector(system, settings),
-    ]
-    if getattr(system.problem, "nonsmooth", False):
-        detectors.append(CornerDetector(system, settings))
-    for name, value in zeros.items():
-        monitor = monitor_of(system.problem, name, value)
-        detectors.append(zero_detector(system, monitor, f"{name} = {value:g}", settings))
-    return detectors
-
-
-def long_steps(system: System, settings: Settings) -> LongSteps | None:
-    """Return what takes long steps and fills them, where points that differ in the parameter are evaluated together."""
-    problem: Any = system.problem
-    cheap = getattr(problem, "passive", False) and problem.side_by_side(system.names[0])
-    return LongSteps(system, settings, negative_stiffness) if cheap else None
-
-
-def monitor_of(problem: Any, name: str, value: float) -> Callable[[Array, Values], float]:
-    """Return the function (x, p) -> column - value for an observable or parameter."""
-    if name in problem.parameters:
-        return lambda x, values: values[name] - value
-    problem.observable(name)
-    return lambda x, values: float(problem.measure(x[None], values, [name])[0, 0]) - value
-
-
 def points_at(branch: Branch, name: str, value: float) -> list[Point]:
     """Return the points of a branch of equilibria at which a column has a value, corrected to it."""
     if branch.problem is None:
@@ -379,7 +313,7 @@ def points_at(branch: Branch, name: str, value: float) -> list[Point]:
     if branch.kind != "equilibria":
         raise MjcontError("at() works on branches of equilibria; on a locus use its special points or rows")
     column = branch[name] - value
-    held, _ = hold_rigid_modes(branch.problem, branch.states[0], branch.row(0).parameters)
+    held, _ = hold_rigid_modes(branch.problem, branch.states[0], branch.parameters_at(0))
     branch = replace(branch, problem=held)
     found: list[Point] = []
     for i in range(len(branch) - 1):

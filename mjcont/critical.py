@@ -15,7 +15,7 @@ import numpy as np
 
 from mjcont.branch import KIND_NAMES, Point, SpecialPoint, show
 from mjcont.collect import make_point
-from mjcont.continuation import hold_rigid_modes, monitor_of
+from mjcont.continuation import hold_rigid_modes
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.loci import CODIMENSION, followed_as
 from mjcont.numerics import normalform
@@ -26,6 +26,7 @@ from mjcont.numerics.loci import conditions_of
 from mjcont.numerics.newton import Corrected, solve
 from mjcont.numerics.problem import Array
 from mjcont.numerics.system import Free, Local, System
+from mjcont.walkers import monitor_of
 
 SUPPORTED = ("LP", "HB", "BP", "CP", "BT", "ZH", "UZ")
 _REACH = 0.3  # longest predicted step, scaled

@@ -13,9 +13,7 @@ from mjcont.collect import Progress, build_branch, ordered_rows, reporter
 from mjcont.continuation import (
     check_bounds,
     continue_equilibria,
-    equilibrium_detectors,
     find_equilibrium,
-    long_steps,
     make_settings,
 )
 from mjcont.errors import BoundsError, MjcontError
@@ -25,7 +23,8 @@ from mjcont.numerics.newton import correct, solve
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Free, System
-from mjcont.numerics.trace import End, Status, Trace, Walker, trace
+from mjcont.numerics.trace import End, Status, Trace, trace
+from mjcont.walkers import equilibrium_walker
 
 _OFFSET = 1e-2
 _SAME = 1e-5
@@ -123,8 +122,7 @@ def _through(
     lead = tangent[system.n] if abs(tangent[system.n]) > 1e-6 else tangent[np.argmax(np.abs(tangent))]
     tangent = tangent if lead > 0 else -tangent
     neutral: list[Located] = []
-    detectors = equilibrium_detectors(system, settings, neutral, {})
-    walker = Walker(system, settings, detectors, long=long_steps(system, settings))
+    walker = equilibrium_walker(system, settings, neutral, {})
     halves: list[Trace] = []
     for sign in (-1.0, 1.0):
         if halves and halves[0].end.status in (Status.CLOSED, Status.INTERRUPTED):

@@ -10,7 +10,7 @@ import numpy as np
 
 from mjcont.branch import Branch, SpecialPoint
 from mjcont.collect import Progress, build_branch, ordered_rows, reporter
-from mjcont.continuation import check_bounds, equilibrium_detectors, long_steps, make_settings
+from mjcont.continuation import check_bounds, make_settings
 from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.loci import default_ends, locus_detectors
 from mjcont.numerics.arclength import CurvePoint, first_point
@@ -22,6 +22,7 @@ from mjcont.numerics.settings import Settings
 from mjcont.numerics.spectrum import spectrum
 from mjcont.numerics.system import Free, Local, System
 from mjcont.numerics.trace import Trace, Walker, trace
+from mjcont.walkers import equilibrium_walker
 
 _ENDS = ("first", "last")
 _SAME = 1e-4
@@ -100,7 +101,7 @@ def _segment(
     """Return what follows an end, walked from a regular row before it so that nothing at the end is missed."""
     if _end(branch, end)[0] == "at special point":
         return None
-    values = branch.row(0 if end == "first" else len(branch) - 1).parameters
+    values = branch.parameters_at(0 if end == "first" else len(branch) - 1)
     if any(not p.low < values[p.name] < p.high for p in free):
         return None
     labels = branch.labels if end == "first" else branch.labels[::-1]
@@ -112,8 +113,7 @@ def _segment(
     neutral: list[Any] = []
     zeros = branch.settings.get("zeros", {})
     if branch.kind == "equilibria":
-        detectors = equilibrium_detectors(system, settings, neutral, zeros)
-        walker = Walker(system, settings, detectors, long=long_steps(system, settings))
+        walker = equilibrium_walker(system, settings, neutral, zeros)
     else:
         kind = branch.kind.removesuffix(" locus")
         stop = unfolding_stop(system) if kind == "BP" else None
@@ -147,7 +147,7 @@ def _end(branch: Branch, end: str) -> tuple[str, str]:
 
 def _system(branch: Branch, index: int, free: Sequence[Free]) -> System:
     problem: Any = branch.problem
-    values = problem.values(branch.row(index).parameters)
+    values = problem.values(branch.parameters_at(index))
     plain = System(problem, values, free)
     if branch.kind == "equilibria":
         return plain

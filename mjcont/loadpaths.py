@@ -14,7 +14,7 @@ import numpy as np
 
 from mjcont.branch import Branch, Point, SpecialPoint, show
 from mjcont.collect import collect, run_directions
-from mjcont.continuation import equilibrium_detectors, find_equilibrium, hold_rigid_modes, make_settings
+from mjcont.continuation import find_equilibrium, hold_rigid_modes, make_settings
 from mjcont.energy import potential_energy, without_potential
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.escape import Landing, escape
@@ -27,6 +27,7 @@ from mjcont.numerics.stability import spectrum_of
 from mjcont.numerics.system import Free, Local, System
 from mjcont.numerics.trace import Walker
 from mjcont.pathresults import Jump, LoadPath, Segment, sliced
+from mjcont.walkers import equilibrium_detectors
 
 LANDINGS = ("motion", "creep")
 # how far beyond the point of loss the load is taken, relative to the leg: where another rest may be near, farther

@@ -8,7 +8,7 @@ from typing import Any
 
 from mjcont.branch import KIND_NAMES, Branch, SpecialPoint, show
 from mjcont.collect import Progress, collect, run_directions
-from mjcont.continuation import check_bounds, check_direction, hold_rigid_modes, make_settings, monitor_of
+from mjcont.continuation import check_bounds, check_direction, hold_rigid_modes, make_settings
 from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equilibria import zero_detector
 from mjcont.numerics.events import Detector
@@ -16,6 +16,7 @@ from mjcont.numerics.loci import conditions_of, fold_locus_detectors, hopf_locus
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Free, Local, System
 from mjcont.numerics.trace import Walker
+from mjcont.walkers import monitor_of
 
 CONTINUABLE = ("LP", "HB", "BP", "CP", "BT", "ZH")
 _NAMES = {"LP": "fold", "HB": "Hopf", "BP": "branch-point", "CP": "cusp", "BT": "Bogdanov-Takens", "ZH": "zero-Hopf"}

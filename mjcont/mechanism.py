@@ -30,14 +30,14 @@ from mjcont.numerics.problem import Array, Linearization, Pencil, Values
 from mjcont.observables import model_observables
 from mjcont.parameters import Declaration, collect_parameters, declared_parameter
 from mjcont.paths import bush_names
-from mjcont.quantities import Observable, Parameter
-from mjcont.readings import Readings
+from mjcont.quantities import Parameter
+from mjcont.readings import Observed, Readings
 from mjcont.writer import FieldWriter
 
 _OWNED = ("_loaded", "_model", "_writer", "_readings", "_evaluator", "nonsmooth", "_derivatives")
 
 
-class Mechanism:
+class Mechanism(Observed):
     """A MuJoCo model as an equilibrium problem f(q, p) = 0 with named parameters and observables.
 
     Use `Mechanism.from_xml`, `from_spec` or `from_model` to make one.
@@ -349,33 +349,6 @@ class Mechanism:
     def evaluations(self) -> int:
         """Forward evaluations so far; every row of a batch counts as one."""
         return self._evaluator.count
-
-    # -- observables -----------------------------------------------------------------------------------------
-
-    def observe(self, name: str, function: Callable[[Any, Any], float], unit: str = "") -> None:
-        """Add an observable computed by `function(model, data)` from MuJoCo's model and data."""
-        self.observables[name] = Observable(name, unit, function)
-
-    def observable(self, name: str) -> Observable:
-        """Return the observable called `name`."""
-        if name not in self.observables:
-            raise unknown_name("observable", name, self.observables)
-        return self.observables[name]
-
-    def measure(
-        self,
-        states: Array,
-        values: Sequence[Values] | Values,
-        names: Sequence[str] | None = None,
-        velocities: Array | None = None,
-    ) -> Array:
-        """Return observables for states (m, nq), at rest unless velocities (m, nv) are given; default all of them."""
-        chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
-        return self._readings.read(chosen, states, values, velocities)
-
-    def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return all observables at rest in states (m, nq), a parameter having a value of its own in each (m,)."""
-        return self._readings.read_along(list(self.observables.values()), states, values, name, column)
 
     # -- states ----------------------------------------------------------------------------------------------
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import mujoco
 import numpy as np
 
+from mjcont.errors import unknown_name
 from mjcont.numerics.problem import Array, Values
 from mjcont.quantities import Observable, Parameter
 from mjcont.rows import Rows
@@ -77,3 +79,40 @@ class Readings:
             for k, read in enumerate(columns):
                 out[first : first + count, k] = read[:count]
         return out
+
+
+class Observed:
+    """What a Mechanism knows of its observables.
+
+    Attributes
+    ----------
+    observables : dict of str to Observable
+    """
+
+    observables: dict[str, Observable]
+    _readings: Readings
+
+    def observe(self, name: str, function: Callable[[Any, Any], float], unit: str = "") -> None:
+        """Add an observable computed by `function(model, data)` from MuJoCo's model and data."""
+        self.observables[name] = Observable(name, unit, function)
+
+    def observable(self, name: str) -> Observable:
+        """Return the observable called `name`."""
+        if name not in self.observables:
+            raise unknown_name("observable", name, self.observables)
+        return self.observables[name]
+
+    def measure(
+        self,
+        states: Array,
+        values: Sequence[Values] | Values,
+        names: Sequence[str] | None = None,
+        velocities: Array | None = None,
+    ) -> Array:
+        """Return observables for states (m, nq), at rest unless velocities (m, nv) are given; default all of them."""
+        chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
+        return self._readings.read(chosen, states, values, velocities)
+
+    def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return all observables at rest in states (m, nq), a parameter having a value of its own in each (m,)."""
+        return self._readings.read_along(list(self.observables.values()), states, values, name, column)

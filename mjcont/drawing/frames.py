@@ -121,7 +121,7 @@ def _of_history(history: History, x: str, y: str) -> Track:
 
 
 def _of_branch(branch: Branch, x: str, y: str) -> Track:
-    values = [branch.row(i).parameters for i in range(len(branch))]
+    values = [branch.parameters_at(i) for i in range(len(branch))]
     notes = [str(s) for s in branch.stability] if branch.kind == "equilibria" else [""] * len(branch)
     named = {n: branch.unit(n) for n in branch.free}
     xs, ys = branch[x], branch[y]

@@ -1,8 +1,8 @@
 """Pseudo-arclength continuation: one step, and the loop that repeats it.
 
 The stepper predicts on Hermite's polynomial through the last points with their tangents and corrects orthogonally to
-the tangent. Steps are chosen from the contraction of the corrector and from the angle between successive tangents; a step
-is refused when the tangent turns too far or the corrector wanders, so that a neighbouring branch is not jumped to.
+the tangent. Steps are chosen from the contraction of the corrector and from the angle between successive tangents; a
+step is refused when the tangent turns too far or the corrector wanders, so that a neighbouring branch is not jumped to.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ _CONTRACTION = 0.1
 _GROWTH = 2.0
 # a parameter that moves by less along the tangent has no direction: the start is a fold, and noise would decide
 _AT_FOLD = 1e-5
-_PAST = 2
+_PAST = 4
+_CLUSTER, _NOISY = 0.2, 1e-5
 # how far behind a start the points lie from which the other direction is predicted
 _BEHIND = 0.16
 # the contraction of the last corrector counts as this many times worse for the next
@@ -148,11 +149,21 @@ def predict(point: CurvePoint, h: float) -> Array:
     With bushes of stiffness k a prediction that opens the pins by d loads them with k d, so a high order is what
     allows long steps with stiff joints.
     """
-    if not point.past:
+    past = _apart(point, h)
+    if not past:
         return h * point.tangent
-    values, slopes = hermite([0.0, *(e.s - point.s for e in point.past)], h)
-    steps, tangents = (e.step for e in point.past), (e.tangent for e in point.past)
-    return combine([*slopes, *values[1:]], [point.tangent, *tangents, *steps])
+    values, slopes = hermite([0.0, *(e.s - point.s for e in past)], h)
+    steps, tangents = (e.step for e in past), (e.tangent for e in past)
+    return combine(np.concatenate([slopes, values[1:]]), [point.tangent, *tangents, *steps])
+
+
+def _apart(point: CurvePoint, h: float) -> list[Earlier]:
+    """Return the last point and those before it that are far enough apart: a polynomial through a cluster is noise."""
+    chosen = list(point.past[:1])
+    for e in point.past[1:]:
+        if chosen[-1].s - e.s >= max(_CLUSTER * h, _NOISY):
+            chosen.append(e)
+    return chosen
 
 
 def _matrix_ahead(point: CurvePoint, h: float) -> Array:
@@ -160,10 +171,10 @@ def _matrix_ahead(point: CurvePoint, h: float) -> Array:
 
     Bushes turn with the mechanism: the last point's derivatives are off by stiffness times angle at the next one.
     """
-    if not point.past:
+    past = _apart(point, h)
+    if not past:
         return point.jac
-    weights = lagrange([0.0, *(e.s - point.s for e in point.past)], h)
-    return combine(weights, [point.jac, *(e.jac for e in point.past)])
+    return combine(lagrange([0.0, *(e.s - point.s for e in past)], h), [point.jac, *(e.jac for e in past)])
 
 
 def remembered(point: CurvePoint, step: Array) -> tuple[Earlier, ...]:

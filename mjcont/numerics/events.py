@@ -162,8 +162,8 @@ def point_at(system: System, old: CurvePoint, new: CurvePoint, c: Corrected, s: 
 class ZeroDetector:
     """Zeros of a scalar function of a curve point: user zeros, and tests on loci without a system of their own.
 
-    `solve` follows a point near a zero to the zero itself; `fraction` tells where in a step it lies better than a linear
-    function through the test's values.
+    `solve` follows a point near a zero to the zero itself; `fraction` tells better than a linear function through the
+    test's values where in a step it lies.
     """
 
     kind: str

@@ -11,30 +11,38 @@ import numpy as np
 from mjcont.numerics.problem import Array
 
 
-def lagrange(nodes: Sequence[float], at: Any) -> list[Any]:
-    """Return the weight of each node's value in the polynomial through all, at one parameter or an array of them."""
+def lagrange(nodes: Sequence[float], at: Any) -> Any:
+    """Return the weight of each node's value in the polynomial through all: (k,) for a number, (k, m) for an array."""
+    if isinstance(at, np.ndarray):
+        places = np.array(nodes)
+        gaps = places[:, None] - places
+        np.fill_diagonal(gaps, 1.0)
+        parts = (at - places[:, None])[None] / gaps[:, :, None]
+        parts[np.arange(len(places)), np.arange(len(places))] = 1.0
+        return parts.prod(axis=1)
     weights = []
     for i, a in enumerate(nodes):
-        weight: Any = 1.0
+        weight = 1.0
         for j, b in enumerate(nodes):
             if j != i:
-                weight = weight * ((at - b) / (a - b))
+                weight *= (at - b) / (a - b)
         weights.append(weight)
-    return weights
+    return np.array(weights)
 
 
-def hermite(nodes: Sequence[float], at: Any) -> tuple[list[Any], list[Any]]:
+def hermite(nodes: Sequence[float], at: Any, weights: Any = None) -> tuple[Any, Any]:
     """Return the weights of the nodes' values and of their slopes in Hermite's polynomial of degree 2 k - 1.
 
-    Source: Quarteroni, Sacco, Saleri, Numerical Mathematics (Springer 2007), section 8.5.
+    `weights` are those of `lagrange`, if they are known. Source: Quarteroni, Sacco, Saleri, Numerical Mathematics
+    (Springer 2007), section 8.5.
     """
-    values, slopes = [], []
-    for i, (a, weight) in enumerate(zip(nodes, lagrange(nodes, at), strict=True)):
-        bend = 2.0 * sum(1.0 / (a - b) for j, b in enumerate(nodes) if j != i)
-        away, square = at - a, weight * weight
-        values.append(square - bend * away * square)
-        slopes.append(away * square)
-    return values, slopes
+    found = lagrange(nodes, at) if weights is None else weights
+    bends = np.array([2.0 * sum(1.0 / (a - b) for j, b in enumerate(nodes) if j != i) for i, a in enumerate(nodes)])
+    away = np.array([at - a for a in nodes])
+    square = found * found
+    if square.ndim > 1:
+        bends = bends[:, None]
+    return square - bends * away * square, away * square
 
 
 def arc(chord: float, cosine: float) -> float:
@@ -43,8 +51,8 @@ def arc(chord: float, cosine: float) -> float:
     return chord * half / math.sin(half) if half > 1e-4 else chord
 
 
-def combine(weights: Sequence[Any], parts: Sequence[Array]) -> Array:
-    """Return sum_i weights[i] * parts[i]; weights are numbers, or (m,) arrays that give (m, *shape of a part)."""
-    stack, factors = np.array(parts), np.array(weights)
-    out = factors.T @ stack.reshape(len(parts), -1)
-    return out.reshape((*factors.shape[1:], *stack.shape[1:]))
+def combine(weights: Array, parts: Sequence[Array]) -> Array:
+    """Return sum_i weights[i] * parts[i]; weights are (k,), or (k, m) and give (m, *shape of a part)."""
+    stack = np.array(parts)
+    out = weights.T @ stack.reshape(len(parts), -1)
+    return out.reshape((*weights.shape[1:], *stack.shape[1:]))

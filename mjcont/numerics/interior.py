@@ -22,7 +22,7 @@ from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import ROW_GUARD, System
 
 # numbers of interior points, so that few sizes of batches are needed
-_COUNTS = (1, 2, 3, 4, 6, 8, 12, 16, 23, 31, 47)
+_COUNTS = (1, 2, 3, 4, 6, 8, 12, 16, 23, 31, 47, 63, 95)
 MOST = _COUNTS[-1]
 # a step that is longer than asked for by less than this part needs no point inside
 _SLACK = 0.1
@@ -33,9 +33,9 @@ _CONTRACTION, _INTERPOLATED = 0.3, 2e-2
 _ROUNDING = 1e-11
 _REMAINS = 1e-13
 _NOISE = 1e-9
-# where the parameter moves by less along the tangent, derivatives of the points themselves decide where it turns: by
-# less than this, or than the tangents may be in error
-_TURNING = 0.02
+# where the parameter moves by less along the tangent than that may be in error, at least and at most by so much,
+# derivatives of the points themselves decide where it turns
+_UNSURE, _TURNING = 5e-3, 0.02
 # interpolation errors aimed at: the size of the first correction
 _ERROR = 1e-4
 # contraction aimed at where matrices are interpolated
@@ -150,10 +150,10 @@ def _interpolated(new: CurvePoint, at: Array) -> tuple[Array, Array, Array]:
     """Return steps from `new` (m, n + 1), unit tangents and matrices (m, n, n + 1) at arclengths (m,) before it."""
     nodes = [0.0, *(e.s - new.s for e in new.past)]
     there = at - new.s
-    values, slopes = hermite(nodes, there)
-    tangents = [new.tangent, *(e.tangent for e in new.past)]
-    steps = combine([*slopes, *values[1:]], [*tangents, *(e.step for e in new.past)])
     weights = lagrange(nodes, there)
+    values, slopes = hermite(nodes, there, weights)
+    tangents = [new.tangent, *(e.tangent for e in new.past)]
+    steps = combine(np.concatenate([slopes, values[1:]]), [*tangents, *(e.step for e in new.past)])
     turned = combine(weights, tangents)
     turned /= np.sqrt((turned * turned).sum(axis=1))[:, None]
     return steps, turned, combine(weights, [new.jac, *(e.jac for e in new.past)])
@@ -191,26 +191,31 @@ def _checked(system: System, old: CurvePoint, new: CurvePoint, inside: Interior,
     if cosines.min() < math.cos(settings.angle_max):
         return f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg between points"
     along, signs = tangents[:, system.n], np.array([p.sign for p in every])
-    flips = (along[1:] * along[:-1] <= 0.0) | (signs[1:] * signs[:-1] <= 0.0)
-    unsure = min(max(5.0 * inside.rate, 1e-3), _TURNING)
-    doubtful = (np.abs(along[1:-1]) < unsure) | flips[1:] | flips[:-1]
-    for i in np.flatnonzero(doubtful) + 1:
-        _refine(system, every[i])
-        along[i], signs[i] = every[i].tangent[system.n], every[i].sign
     values, s = np.array([p.y[0] for p in every]), np.array([p.s for p in every])
-    twice = _turn_twice(along, values, s)
-    if twice.any():  # where the parameter hardly moves, an interpolated tangent may say so in error
-        for i in np.flatnonzero(twice[1:] | twice[:-1]) + 1:
+    unsure = min(max(5.0 * inside.rate, _UNSURE), _TURNING)
+    own = np.zeros(len(inside.points), dtype=bool)
+    while True:
+        pairs = _changes(along, signs) | _turn_twice(along, values, s)
+        asked = ((np.abs(along[1:-1]) < unsure) | pairs[1:] | pairs[:-1]) & ~own
+        if not asked.any():
+            break
+        for i in (np.flatnonzero(asked) + 1).tolist():
             _refine(system, every[i])
             along[i], signs[i] = every[i].tangent[system.n], every[i].sign
-        if _turn_twice(along, values, s).any():
-            return "the parameter may turn twice between two points"
-    for i in np.flatnonzero((along[1:] * along[:-1] <= 0.0) | (signs[1:] * signs[:-1] <= 0.0)).tolist():
+        own |= asked
+    if _turn_twice(along, values, s).any():
+        return "the parameter may turn twice between two points"
+    for i in np.flatnonzero(_changes(along, signs)).tolist():
         a, b = every[i], every[i + 1]
         inside.changed.append(i)
         if b is not new:  # what is looked for between these two starts from a
             b.past = (Earlier(a.s, system.difference(a.x, a.y, b.x, b.y), a.tangent, a.jac),)
     return inside
+
+
+def _changes(along: Array, signs: Array) -> Array:
+    """Return for each pair of points whether the parameter turns between them or the orientation changes."""
+    return (along[1:] * along[:-1] <= 0.0) | (signs[1:] * signs[:-1] <= 0.0)
 
 
 def _turn_twice(slopes: Array, values: Array, s: Array) -> Array:

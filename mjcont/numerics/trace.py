@@ -28,6 +28,8 @@ _SMALL_FOLDS = 1e-5
 # a curve that ends on the bound where it is already adds no second point there
 _SAME_POINT = 1e-9
 _SAME_LOCATED = 1e-7
+# along a locus, whose matrices are not extrapolated, contraction that tells that they turn with the mechanism
+_STALE = 0.25
 
 
 class Status(Enum):
@@ -221,7 +223,8 @@ class Walker:
             items = self._items(point, inside, new)
         except Retry as retry:
             return str(retry), 0.4 * h
-        self._fresh |= not far and new.iterations > 4 and by_contraction(new) < 1.0
+        stale = bool(self.system.conditions) and new.contraction > _STALE
+        self._fresh |= not far and by_contraction(new) < 1.0 and (new.iterations > 4 or stale)
         after = next_step(h, new, settings) if self.long is None else self.long.next(h, new, inside)
         return Step(items, after, ending)
 
