@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+import mujoco
 import numpy as np
+import scipy.linalg.lapack
 from mujoco.batch import Batch
 
 import mjcont as mc
@@ -42,10 +44,15 @@ class Floor:
         return seconds(lambda: [self.point() for _ in range(calls)]) / calls
 
 
-def per_point(case: Case, **options: Any) -> float:
-    """Return the time of a run divided by its points, stability and special points included, in s."""
+def per_point(case: Case, *, eigenvalues: bool = False, **options: Any) -> float:
+    """Return the time of a run divided by its points, in s: stability and special points included.
+
+    With `eigenvalues` all of them are read, too; otherwise those that stability does not need wait.
+    """
     began = time.perf_counter()
     branch = case.run(**options)
+    if eigenvalues:
+        assert len(branch.eigenvalues) == len(branch)
     return (time.perf_counter() - began) / len(branch)
 
 
@@ -71,7 +78,10 @@ class _Meter:
         return timed
 
 
-_ALGEBRA = ("lu_factor", "lu_solve", "solve", "svd", "eig", "eigvals", "eigh", "eigvalsh", "cholesky", "lstsq", "qr")
+_ALGEBRA = (
+    "solve", "svd", "eig", "eigvals", "eigh", "eigvalsh", "cholesky", "lstsq", "qr", "inv", "det", "dgetrf", "dgetrs"
+)
+_MUJOCO = ("mj_forward", "mj_fwdPosition", "mj_fullM", "mju_sparse2dense")
 
 
 @contextmanager
@@ -86,24 +96,35 @@ def _patched(owner: Any, names: tuple[str, ...], meter: _Meter) -> Iterator[None
             setattr(owner, name, function)
 
 
+def _forget_batches(case: Case) -> None:
+    """Have batches made anew."""
+    case.problem._evaluator._batches = {}
+    case.problem._readings._rows = None
+
+
 def split(case: Case) -> dict[str, float]:
     """Return the shares of MuJoCo, linear algebra and Python in a point's time; the timers cost a little themselves."""
-    import scipy.linalg
-
     mujoco_time, algebra = _Meter(), _Meter()
 
     class TimedBatch(Batch):
         forward = mujoco_time.wrap(Batch.forward)
         set_models = mujoco_time.wrap(Batch.set_models)
 
-    original, case.problem._evaluator._batches = rows.Batch, {}
+    original = rows.Batch
     rows.Batch = TimedBatch  # type: ignore[misc]
     try:
-        with _patched(np.linalg, _ALGEBRA, algebra), _patched(scipy.linalg, _ALGEBRA, algebra):
+        with (
+            _patched(np.linalg, _ALGEBRA, algebra),
+            _patched(scipy.linalg.lapack, _ALGEBRA, algebra),
+            _patched(mujoco, _MUJOCO, mujoco_time),
+        ):
+            _forget_batches(case)
+            case.run()
+            mujoco_time.total = algebra.total = 0.0
             whole = seconds(case.run)
     finally:
         rows.Batch = original  # type: ignore[misc]
-        case.problem._evaluator._batches = {}
+        _forget_batches(case)
     shares = {"mujoco": mujoco_time.total / whole, "algebra": algebra.total / whole}
     return {**shares, "python": 1.0 - sum(shares.values())}
 

@@ -25,13 +25,19 @@ _WEIGHTS = {
     "ab": 1.0,
 }
 _DS_MAX = 0.1
+# how fine the diagrams are that are compared, the default among them, and that against which chords are measured
+_REFINE, _REFERENCE = (1, 4, 16), 64
 
 
 def mechanism_points(case: cases.Case, repeats: int, auto: str | None) -> dict[str, Any]:
     """Return what a point of a mechanism costs, beside the floor and, where there is one, AUTO."""
     branch = case.run()
     floor = Floor(case, branch)
-    runs: dict[str, Callable[[], float]] = {"mjcont": lambda: per_point(case), "floor": floor.per_point}
+    runs: dict[str, Callable[[], float]] = {
+        "mjcont": lambda: per_point(case),
+        "all eigenvalues": lambda: per_point(case, eigenvalues=True),
+        "floor": floor.per_point,
+    }
     if auto is None and case.name in _WEIGHTS:
         peer = auto_peer.AutoPeer(case, _WEIGHTS[case.name], _DS_MAX)
         runs["AUTO"] = lambda: (run := peer.run()).seconds / run.points
@@ -42,20 +48,22 @@ def mechanism_points(case: cases.Case, repeats: int, auto: str | None) -> dict[s
     return {**found, "points": len(branch), "evaluations": evaluations, "split": split(case)}
 
 
-def same_accuracy(case: cases.Case, repeats: int) -> dict[str, Any]:
+def same_accuracy(case: cases.Case, repeats: int, refine: int) -> dict[str, Any]:
     """Compare whole diagrams when AUTO's steps are as large as its chord error allows: that of mjcont's diagram."""
-    branch = case.run()
-    fine = case.run(ds_max=0.005)
+    branch = case.run(refine=refine)
+    fine = case.run(refine=_REFERENCE)
     spans = np.array([case.bounds[1] - case.bounds[0], np.ptp(fine[case.watched])])
     reference = np.column_stack([fine[case.parameter], fine[case.watched]])
     ours = chord_error(np.column_stack([branch[case.parameter], branch[case.watched]]), reference, spans)
-    for ds_max in np.geomspace(1.0, 0.01, 12):
+    for ds_max in np.geomspace(0.5, 0.001, 31):
         peer = auto_peer.AutoPeer(case, _WEIGHTS[case.name], float(ds_max))
         run = peer.run()
         theirs = chord_error(run.curve, reference, spans)
         if theirs <= ours:
             break
-    times = medians({"mjcont": lambda: seconds(case.run), "AUTO": lambda: peer.run().seconds}, repeats)
+    times = medians(
+        {"mjcont": lambda: seconds(lambda: case.run(refine=refine)), "AUTO": lambda: peer.run().seconds}, repeats
+    )
     return {
         **{name: 1e3 * value for name, value in times.items()},
         "chord error": {"mjcont": ours, "AUTO": theirs},
@@ -81,7 +89,9 @@ def main() -> None:
     sizes = [n for n in links if n <= 80]
     result["growth"] = growth(sizes, [result["chain [us]"][n]["mjcont"] for n in sizes])
     if auto is None:
-        result["diagram [ms]"] = {c.name: same_accuracy(c, given.repeats) for c in mechanisms}
+        result["diagram [ms]"] = {
+            f"{c.name}, {r}": same_accuracy(c, given.repeats, r) for c in mechanisms for r in _REFINE
+        }
     if not given.quick:
         result["memory [MB]"] = jobs.memory(80)
         result["jobs [s]"] = medians(
@@ -111,23 +121,24 @@ def plain_points(case: cases.Case, repeats: int, auto: str | None) -> dict[str, 
 def table(result: dict[str, Any]) -> str:
     """Return the figures as text."""
     lines = [", ".join(f"{k} {v}" for k, v in result["machine"].items()), *result["skipped"], ""]
-    head = f"{'a point [us]':<18}{'mjcont':>9}{'floor':>9}{'ratio':>7}{'AUTO':>9}{'ratio':>7}   mujoco/algebra/python"
-    lines.append(head)
+    head = f"{'a point [us]':<18}{'mjcont':>9}{'floor':>9}{'ratio':>7}{'AUTO':>9}{'ratio':>7}"
+    lines.append(f"{head}   mujoco/algebra/python   all eigenvalues")
     named = [*result["points [us]"].items(), *((f"chain {n}", row) for n, row in result["chain [us]"].items())]
     for name, row in named:
         ours, cells = row["mjcont"], []
         for peer in ("floor", "AUTO"):
             cells.append(f"{row[peer]:9.1f}{ours / row[peer]:7.2f}" if peer in row else f"{'-':>9}{'-':>7}")
         shares = "/".join(f"{100 * v:.0f} %" for v in row.get("split", {}).values())
-        lines.append(f"{name:<18}{ours:9.1f}{''.join(cells)}   {shares}")
+        every = f"{row['all eigenvalues']:18.1f}" if "all eigenvalues" in row else ""
+        lines.append(f"{name:<18}{ours:9.1f}{''.join(cells)}   {shares:<21}{every}")
         lines += [f"{'':<18}{peer}: {row[peer]:.1f}" for peer in ("root", "PyCont-Lite") if peer in row]
     lines.append(f"the chain's cost per point grows as nv^{result['growth']:.2f}")
     if "diagram [ms]" in result:
-        lines += ["", f"{'a diagram [ms]':<18}{'mjcont':>9}{'AUTO':>9}{'ratio':>7}   points   chord error"]
+        lines += ["", f"{'a diagram, refine':<22}{'mjcont':>9}{'AUTO':>9}{'ratio':>7}   points   chord error"]
         for name, row in result["diagram [ms]"].items():
             points, error = row["points"], row["chord error"]
             lines.append(
-                f"{name:<18}{row['mjcont']:9.2f}{row['AUTO']:9.2f}{row['mjcont'] / row['AUTO']:7.2f}   "
+                f"{name:<22}{row['mjcont']:9.2f}{row['AUTO']:9.2f}{row['mjcont'] / row['AUTO']:7.2f}   "
                 f"{points['mjcont']}/{points['AUTO']}   {error['mjcont']:.1e}/{error['AUTO']:.1e}"
             )
     for key in ("memory [MB]", "jobs [s]"):

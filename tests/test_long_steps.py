@@ -1,4 +1,4 @@
-"""Points inside long steps: as true as points that the corrector reached one by one, and nothing between them missed."""
+"""Points inside long steps: as true as those that the corrector reached one by one, and nothing between is missed."""
 
 from __future__ import annotations
 
