@@ -195,7 +195,8 @@ def _checked(system: System, old: CurvePoint, new: CurvePoint, inside: Interior,
     unsure = min(max(5.0 * inside.rate, _UNSURE), _TURNING)
     own = np.zeros(len(inside.points), dtype=bool)
     while True:
-        pairs = _changes(along, signs) | _turn_twice(along, values, s)
+        changes, twice = _changes(along, signs), _turn_twice(along, values, s)
+        pairs = changes | twice
         asked = ((np.abs(along[1:-1]) < unsure) | pairs[1:] | pairs[:-1]) & ~own
         if not asked.any():
             break
@@ -203,9 +204,9 @@ def _checked(system: System, old: CurvePoint, new: CurvePoint, inside: Interior,
             _refine(system, every[i])
             along[i], signs[i] = every[i].tangent[system.n], every[i].sign
         own |= asked
-    if _turn_twice(along, values, s).any():
+    if twice.any():
         return "the parameter may turn twice between two points"
-    for i in np.flatnonzero(_changes(along, signs)).tolist():
+    for i in np.flatnonzero(changes).tolist():
         a, b = every[i], every[i + 1]
         inside.changed.append(i)
         if b is not new:  # what is looked for between these two starts from a
