@@ -161,9 +161,9 @@ def build_branch(
     words, counts, spectra = verdicts([p for p, _ in rows], special)
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
     stability[[i for i in special if rows[i][1].kind in ("LP", "HB", "BP")]] = "marginal"  # type: ignore[union-attr]
-    name = system.free[0].name
-    if len(system.free) == 1 and name in problem.parameters:
-        measured = problem.measure_along(states, values[0], name, np.array([v[name] for v in values]))
+    lead = system.names[0]
+    if len(system.free) == 1 and lead in problem.parameters:
+        measured = problem.measure_along(states, values[0], lead, np.array([v[lead] for v in values]))
     else:
         measured = problem.measure(states, values)
     unit_of = units(problem)
@@ -179,7 +179,7 @@ def build_branch(
         columns=columns,
         states=_frozen(states),
         state_labels=problem.state_labels,
-        eigenvalues=_eigenvalues(problem, states, values, spectra),  # type: ignore[arg-type]
+        eigenvalues=_eigenvalues(problem, states, values, spectra, system.names[0]),  # type: ignore[arg-type]
         stability=_frozen(stability),
         n_unstable=_frozen(n_unstable),
         residuals=_frozen([p.error for p, _ in rows]),
@@ -214,14 +214,15 @@ def _springs(problem: Any, system: System, values: Sequence[Values]) -> list[str
 
 
 def _eigenvalues(
-    problem: Any, states: Array, values: Sequence[Values], spectra: Sequence[Spectrum | None]
+    problem: Any, states: Array, values: Sequence[Values], spectra: Sequence[Spectrum | None], name: str
 ) -> Array | Callable[[], Array]:
     """Return the eigenvalues of all rows, (N, m), or a function that computes those that are missing."""
     known: list[Array | None] = [None if s is None else s.eigenvalues for s in spectra]
     missing = [i for i, s in enumerate(spectra) if s is None]
 
     def complete() -> Array:
-        for i, s in zip(missing, spectra_at(problem, states[missing], [values[i] for i in missing]), strict=True):
+        late = spectra_at(problem, states[missing], [values[i] for i in missing], name) if missing else []
+        for i, s in zip(missing, late, strict=True):
             known[i] = s.eigenvalues
         every = [e for e in known if e is not None]
         out = np.full((len(every), max(len(e) for e in every)), complex(np.nan, np.nan))

@@ -7,6 +7,7 @@ negative eigenvalues of K (Kelvin-Tait-Chetaev), and eigenvalues can wait until 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,9 @@ from mjcont.numerics.spectrum import (
     symmetric,
 )
 from mjcont.numerics.system import Local
+
+# entries of the evaluations for derivatives that are held at a time
+_ENTRIES = 2**17
 
 
 def spectrum_of(point: CurvePoint) -> Spectrum:
@@ -56,12 +60,25 @@ def spectra_of(points: Sequence[CurvePoint]) -> list[Spectrum]:
     return [spectrum_of(p) for p in points]
 
 
-def spectra_at(problem: Any, states: Array, values: Sequence[Values]) -> list[Spectrum]:
-    """Return the spectra at equilibria, states (m, nq)."""
+def spectra_at(problem: Any, states: Array, values: Sequence[Values], name: str) -> list[Spectrum]:
+    """Return the spectra at equilibria, states (m, nq), between which the parameter `name` alone differs."""
+    found: list[Spectrum] = []
+    many = max(_ENTRIES // (2 * problem.n**2), 1)
+    for first in range(0, len(states), many):
+        part = slice(first, first + many)
+        found += _some_spectra(problem, states[part], values[part], name)
+    return found
+
+
+def _some_spectra(problem: Any, states: Array, values: Sequence[Values], name: str) -> list[Spectrum]:
+    column = np.array([v[name] for v in values])
+    together = problem.linearize_along(states, values[0], name, column)
     every = [Local(problem, x, v, (), False) for x, v in zip(states, values, strict=True)]
-    if not every or not getattr(problem, "passive", False) or not all(symmetric(local.raw_jac) for local in every):
-        return [local_spectrum(local) for local in every]
-    return conservative_spectra(problem.pencils(states, values, [local.raw_jac for local in every]))
+    jacs = list(together[1]) if together is not None else [local.raw_jac for local in every]
+    if not getattr(problem, "passive", False) or not all(symmetric(j) for j in jacs):
+        pencils = [problem.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]
+        return [spectrum(p, partial(rounding_samples, local)) for p, local in zip(pencils, every, strict=True)]
+    return conservative_spectra(problem.pencils(states, values, jacs))
 
 
 def verdicts(
