@@ -82,19 +82,11 @@ class Derivatives:
         """Whether rows of one batch may differ in a parameter."""
         return not self.evaluator.nonsmooth and self.writer.alone(self.parameters, name)
 
-    def _controls(self, values: Values, name: str, column: Array) -> Array:
-        """Return controls (m, nu) with a parameter's value of each row, after writing the other values."""
-        self.writer.write(self.parameters, values)
-        ctrl = np.empty((len(column), self.evaluator.model.nu))
-        ctrl[:] = self.writer.inputs.ctrl
-        for target in self.parameters[name].targets:
-            ctrl[:, target.index] += target.factor * (column - values[name])[:, None]
-        return ctrl
-
     def along(self, states: Array, values: Values, name: str, column: Array) -> Array:
         """Return forces at states (m, nq), a parameter having a value of its own in each (m,), shape (m, nv)."""
         if self.side_by_side(name):
-            return self.evaluator.forces(states, ctrl=self._controls(values, name, column)).copy()
+            controls = self.writer.controls(self.parameters, values, name, column)
+            return self.evaluator.forces(states, ctrl=controls).copy()
         found = np.empty((len(states), len(self.scale)))
         for i, value in enumerate(column.tolist()):
             self.writer.write(self.parameters, {**values, name: value})
@@ -114,7 +106,7 @@ class Derivatives:
         h = self.rule(name, float(column[0]))[1]
         steps = np.zeros((2 * n + 2, n))
         steps[1:-1] = jacobian_steps(self.scale, rule)
-        controls = self._controls(values, name, np.repeat(column, len(steps)))
+        controls = self.writer.controls(self.parameters, values, name, np.repeat(column, len(steps)))
         for target in self.parameters[name].targets:
             controls[len(steps) - 1 :: len(steps), target.index] += target.factor * h
         moved = self.moved(np.repeat(states, len(steps), axis=0), np.tile(steps, (len(states), 1)))

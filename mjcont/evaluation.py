@@ -12,7 +12,6 @@ from mjcont.rows import ConstrainedRows, Rows
 from mjcont.writer import FieldWriter
 
 _MAX_BATCHES = 32
-_MANY_ROWS = 256
 _ACCELERATION_STEPS = (1e-3, 1e-6)
 _VELOCITY_STEPS = (1.0, 1e-3, 1e-6)
 # at unit speed drag counts that is not there at rest
@@ -100,21 +99,6 @@ class Evaluator:
             return frozenset()
         self.forces(x[None])
         return self._kinks.names(self.model, self._rows(1).codes[0])
-
-    def dampings(self, states: Array, scale: Array) -> Array:
-        """Return `damping` at many states of a model without drag and kinks, (m, nv, nv)."""
-        if self._dampers is not None:
-            return np.array([self._dampers.matrix(self.position(x)) for x in states])
-        n, found = self.model.nv, np.empty((len(states), self.model.nv, self.model.nv))
-        steps = np.concatenate([np.diag(scale), -np.diag(scale)])
-        many = max(_MANY_ROWS // (2 * n), 1)
-        for first in range(0, len(states), many):
-            here = states[first : first + many]
-            padded = np.concatenate([here, np.broadcast_to(states[-1], (many - len(here), states.shape[1]))])
-            rows = self.forces(np.repeat(padded, 2 * n, axis=0), np.tile(steps, (many, 1)))
-            rows = rows.reshape(many, 2, n, n)[: len(here)]
-            found[first : first + many] = ((rows[:, 1] - rows[:, 0]) / (2.0 * scale)[:, None]).transpose(0, 2, 1)
-        return found
 
     def position(self, x: Array) -> mujoco.MjData:
         """Return data of our own with everything that depends on position computed."""

@@ -267,8 +267,8 @@ class Mechanism(Observed):
         if self._held or any(v[n] != first[n] for v in values for n in first.keys() - loads):
             return [self.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]
         self._writer.write(self.parameters, first)
-        dampings = self._evaluator.dampings(np.asarray(states), self.state_scale)
-        return [Pencil(self._evaluator.mass(x), c, -j) for x, c, j in zip(states, dampings, jacs, strict=True)]
+        evaluator, scale = self._evaluator, self.state_scale
+        return [Pencil(evaluator.mass(x), evaluator.damping(x, scale), -j) for x, j in zip(states, jacs, strict=True)]
 
     def first_order(self, x: Array, values: Values, steps: Array) -> Array:
         """Return (v, qacc) at steps (m, 2 nv) of position and velocity around rest at x, shape (m, 2 nv)."""

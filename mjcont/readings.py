@@ -61,8 +61,7 @@ class Readings:
         plain = all(o.source is not None for o in chosen) and not self._constrained
         if len(states) < _MANY or not plain or not self._writer.alone(self._parameters, name):
             return self.read(chosen, states, [{**values, name: v} for v in column.tolist()])
-        self._writer.write(self._parameters, values)
-        targets = self._parameters[name].targets
+        controls = self._writer.controls(self._parameters, values, name, column)
         if self._rows is None:
             self._rows = Rows(self._model, _ROWS, None)
         sources = [o.source for o in chosen if o.source is not None]
@@ -70,11 +69,7 @@ class Readings:
         out = np.empty((len(states), len(chosen)))
         for first in range(0, len(states), _ROWS):
             here = np.minimum(np.arange(first, first + _ROWS), len(states) - 1)
-            ctrl = np.empty((_ROWS, self._model.nu))
-            ctrl[:] = self._writer.inputs.ctrl
-            for target in targets:
-                ctrl[:, target.index] += target.factor * (column[here] - values[name])[:, None]
-            self._rows.forward(states[here], None, self._writer, ctrl)
+            self._rows.forward(states[here], None, self._writer, controls[here])
             count = min(_ROWS, len(states) - first)
             for k, read in enumerate(columns):
                 out[first : first + count, k] = read[:count]

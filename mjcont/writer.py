@@ -125,6 +125,17 @@ class FieldWriter:
             self._alone[name] = alone and not self.inputs.followed
         return self._alone[name]
 
+    def controls(
+        self, parameters: Mapping[str, Parameter], values: Mapping[str, float], name: str, column: np.ndarray
+    ) -> np.ndarray:
+        """Write `values` and return controls (m, nu) in which a control that is `alone` has values of its own (m,)."""
+        self.write(parameters, values)
+        ctrl = np.empty((len(column), self.model.nu))
+        ctrl[:] = self.inputs.ctrl
+        for target in parameters[name].targets:
+            ctrl[:, target.index] += target.factor * (column - values[name])[:, None]
+        return ctrl
+
     def _forget(self) -> None:
         self._written.clear()
         self._last, self._base = None, {}

@@ -38,7 +38,7 @@ class LongSteps:
 
     def __post_init__(self) -> None:
         given = self.settings
-        reach = max(_REACH, given.ds_max)
+        reach = max(min(_REACH, MOST * given.ds_max / given.refine), given.ds_max)
         angle, angle_max = max(_ANGLE, given.angle), max(_ANGLE_MAX, given.angle_max)
         self.far = replace(given, ds_max=reach, angle=angle, angle_max=angle_max)
 
