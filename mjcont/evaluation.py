@@ -128,7 +128,7 @@ class Evaluator:
         """Return -d forces/dv at rest, (nv, nv), centred: exact for linear dampers, and for drag that is quadratic.
 
         Where such a velocity releases a contact or saturates an actuator, smaller ones are taken. Of a model with
-        nothing but dampers on joints and along actuators the matrix is computed without differences.
+        nothing but dampers on joints, on tendons and along actuators the matrix is computed without differences.
         """
         if self._dampers is not None and not self.writer.failure:
             return self._dampers.matrix(self.position(x))

@@ -75,8 +75,7 @@ def equilibrium_walker(
 ) -> Walker:
     """Return what walks along a curve of equilibria, with long steps where points inside them are cheap.
 
-    They are where points that differ in the parameter are evaluated together, and stability follows from the inertia of
-    K or at least needs no derivatives in the velocity.
+    They are where points that differ in the parameter are evaluated together, and only dampers resist velocity.
     """
     problem: Any = system.problem
     cheap = getattr(problem, "passive", False) and problem.side_by_side(system.names[0])

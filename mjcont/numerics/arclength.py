@@ -29,6 +29,7 @@ _GROWTH = 2.0
 # a parameter that moves by less along the tangent has no direction: the start is a fold, and noise would decide
 _AT_FOLD = 1e-5
 _PAST = 4
+# points nearer to each other than this part of a step, or this far, are a cluster
 _CLUSTER, _NOISY = 0.2, 1e-5
 # how far behind a start the points lie from which the other direction is predicted
 _BEHIND = 0.16
@@ -68,7 +69,7 @@ class CurvePoint:
     error : scaled residual.
     angle : turning of the tangent since the last point, rad.
     rate : contraction of the corrector's last step.
-    past : up to two points before, the latest first.
+    past : up to four points before (one on a locus), the latest first.
     extra : what detectors keep of the point (test values, spectrum).
     """
 

@@ -73,8 +73,8 @@ class LongSteps:
     def spans(self, old: CurvePoint, new: CurvePoint, inside: Interior) -> list[tuple[int, int]]:
         """Return the pairs of a step's points, by their indices, between which special points are to be looked for.
 
-        None are where the ends tell the number of unstable eigenvalues of all points; where they do not, the pairs lie
-        as far apart as points would without long steps.
+        Where the ends tell the number of unstable eigenvalues of all points, those are told it, and only pairs in which
+        the curve changes remain. Where they do not, pairs lie as far apart as points would without long steps.
         """
         before, after, last = self.index(old), self.index(new), len(inside.points) + 1
         changed = [(i, i + 1) for i in inside.changed]
