@@ -26,7 +26,9 @@ _WEIGHTS = {
 }
 _DS_MAX = 0.1
 # how fine the diagrams are that are compared, the default among them, and that against which chords are measured
-_REFINE, _REFERENCE = (1, 4, 16), 64
+_CHORDS, _REFERENCE = (3e-5, 3e-6, 3e-7), 1e-8
+# the steps tried for AUTO, from the largest on
+_STEPS = np.geomspace(0.5, 0.0005, 121)
 
 
 def mechanism_points(case: cases.Case, repeats: int, auto: str | None) -> dict[str, Any]:
@@ -48,21 +50,21 @@ def mechanism_points(case: cases.Case, repeats: int, auto: str | None) -> dict[s
     return {**found, "points": len(branch), "evaluations": evaluations, "split": split(case)}
 
 
-def same_accuracy(case: cases.Case, repeats: int, refine: int) -> dict[str, Any]:
+def same_accuracy(case: cases.Case, repeats: int, chord: float) -> dict[str, Any]:
     """Compare whole diagrams when AUTO's steps are as large as its chord error allows: that of mjcont's diagram."""
-    branch = case.run(refine=refine)
-    fine = case.run(refine=_REFERENCE)
+    branch = case.run(chord=chord)
+    fine = case.run(chord=_REFERENCE)
     spans = np.array([case.bounds[1] - case.bounds[0], np.ptp(fine[case.watched])])
     reference = np.column_stack([fine[case.parameter], fine[case.watched]])
     ours = chord_error(np.column_stack([branch[case.parameter], branch[case.watched]]), reference, spans)
-    for ds_max in np.geomspace(0.5, 0.001, 31):
+    for ds_max in _STEPS:
         peer = auto_peer.AutoPeer(case, _WEIGHTS[case.name], float(ds_max))
         run = peer.run()
         theirs = chord_error(run.curve, reference, spans)
         if theirs <= ours:
             break
     times = medians(
-        {"mjcont": lambda: seconds(lambda: case.run(refine=refine)), "AUTO": lambda: peer.run().seconds}, repeats
+        {"mjcont": lambda: seconds(lambda: case.run(chord=chord)), "AUTO": lambda: peer.run().seconds}, repeats
     )
     return {
         **{name: 1e3 * value for name, value in times.items()},
@@ -90,7 +92,7 @@ def main() -> None:
     result["growth"] = growth(sizes, [result["chain [us]"][n]["mjcont"] for n in sizes])
     if auto is None:
         result["diagram [ms]"] = {
-            f"{c.name}, {r}": same_accuracy(c, given.repeats, r) for c in mechanisms for r in _REFINE
+            f"{c.name}, {chord:.0e}": same_accuracy(c, given.repeats, chord) for c in mechanisms for chord in _CHORDS
         }
     if not given.quick:
         result["memory [MB]"] = jobs.memory(80)
@@ -134,11 +136,11 @@ def table(result: dict[str, Any]) -> str:
         lines += [f"{'':<18}{peer}: {row[peer]:.1f}" for peer in ("root", "PyCont-Lite") if peer in row]
     lines.append(f"the chain's cost per point grows as nv^{result['growth']:.2f}")
     if "diagram [ms]" in result:
-        lines += ["", f"{'a diagram, refine':<22}{'mjcont':>9}{'AUTO':>9}{'ratio':>7}   points   chord error"]
+        lines += ["", f"{'a diagram, chord':<26}{'mjcont':>9}{'AUTO':>9}{'ratio':>7}   points   chord error"]
         for name, row in result["diagram [ms]"].items():
             points, error = row["points"], row["chord error"]
             lines.append(
-                f"{name:<22}{row['mjcont']:9.2f}{row['AUTO']:9.2f}{row['mjcont'] / row['AUTO']:7.2f}   "
+                f"{name:<26}{row['mjcont']:9.2f}{row['AUTO']:9.2f}{row['mjcont'] / row['AUTO']:7.2f}   "
                 f"{points['mjcont']}/{points['AUTO']}   {error['mjcont']:.1e}/{error['AUTO']:.1e}"
             )
     for key in ("memory [MB]", "jobs [s]"):

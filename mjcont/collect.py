@@ -13,13 +13,14 @@ from typing import Any
 import numpy as np
 
 from mjcont.branch import Branch, Column, Point, SpecialPoint, show
+from mjcont.curverows import CROSSINGS, CurveRows, curve_rows
 from mjcont.errors import StartError
 from mjcont.numerics.arclength import CurvePoint, first_point, turned_back
 from mjcont.numerics.events import Located
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.spectrum import Spectrum
-from mjcont.numerics.stability import local_spectrum, spectra_at, verdicts
+from mjcont.numerics.stability import local_spectrum
 from mjcont.numerics.system import Local, System
 from mjcont.numerics.trace import End, Status, Trace, Walker, trace
 from mjcont.storage import special_from_row
@@ -130,7 +131,16 @@ def collect(
     problem = system.problem
     if not rows:
         raise StartError(f"{problem.name}: " + "; ".join(m for _, m in ends))  # type: ignore[attr-defined]
-    return build_branch(kind, system, rows, ends, origin, start_index, settings, neutral, notes)
+    start = rows[start_index][0]
+    table = curve_rows(system, rows, chord_of(kind, settings, traces))
+    start_index = next(i for i, p in enumerate(table.points) if p is start)
+    return build_branch(kind, table, ends, origin, start_index, settings, neutral, notes)
+
+
+def chord_of(kind: str, settings: Settings, traces: Sequence[Trace]) -> float:
+    """Return how close chords are to stay to a curve: loci, and what an interrupt left, have no rows between points."""
+    stopped = any(t.end.status is Status.INTERRUPTED for t in traces)
+    return math.inf if stopped or kind != "equilibria" else settings.chord
 
 
 def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
@@ -144,8 +154,7 @@ def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
 
 def build_branch(
     kind: str,
-    system: System,
-    rows: Sequence[tuple[CurvePoint, Located | None]],
+    rows: CurveRows,
     ends: Sequence[tuple[str, str]],
     origin: str,
     start_index: int,
@@ -153,22 +162,22 @@ def build_branch(
     neutral: Sequence[Located] = (),
     notes: Sequence[str] = (),
 ) -> Branch:
-    """Return the branch of ordered curve points: columns, spectra, labelled special points, provenance."""
+    """Return the branch of ordered rows: columns, spectra, labelled special points, provenance."""
+    system, states = rows.system, rows.states
     problem: Any = system.problem
-    values = [p.local.values if "interior" in p.extra else system.values(p.y) for p, _ in rows]
-    states = np.array([p.x for p, _ in rows])
-    special = {i for i, (_, e) in enumerate(rows) if e is not None}
-    words, counts, spectra = verdicts([p for p, _ in rows], special)
+    words, counts, spectra = rows.stability()
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
-    stability[[i for i in special if rows[i][1].kind in ("LP", "HB", "BP")]] = "marginal"  # type: ignore[union-attr]
+    crossings = [i for i, e in enumerate(rows.located) if e is not None and e.kind in CROSSINGS]
+    stability[crossings] = "marginal"
+    base = rows.values(0)
     lead = system.names[0]
     if len(system.free) == 1 and lead in problem.parameters:
-        measured = problem.measure_along(states, values[0], lead, np.array([v[lead] for v in values]))
+        measured = problem.measure_along(states, base, lead, rows.column(0))
     else:
-        measured = problem.measure(states, values)
+        measured = problem.measure(states, [rows.values(i) for i in range(len(rows))])
     unit_of = units(problem)
     columns = {
-        p.name: Column(p.name, unit_of[p.name], "parameter", _frozen([v[p.name] for v in values])) for p in system.free
+        p.name: Column(p.name, unit_of[p.name], "parameter", _frozen(rows.column(i))) for i, p in enumerate(system.free)
     }
     for k, name in enumerate(problem.observables):
         if name not in columns:
@@ -179,13 +188,13 @@ def build_branch(
         columns=columns,
         states=_frozen(states),
         state_labels=problem.state_labels,
-        eigenvalues=_eigenvalues(problem, states, values, spectra, system.names[0]),  # type: ignore[arg-type]
+        eigenvalues=_eigenvalues(rows, spectra),  # type: ignore[arg-type]
         stability=_frozen(stability),
         n_unstable=_frozen(n_unstable),
-        residuals=_frozen([p.error for p, _ in rows]),
+        residuals=_frozen(rows.errors),
         special_points=(),
         free={p.name: (p.low, p.high) for p in system.free},
-        fixed={k: v for k, v in values[0].items() if k not in system.names},
+        fixed={k: v for k, v in base.items() if k not in system.names},
         ends=ends,
         start="",
         settings={k: v for k, v in asdict(settings).items() if v != math.inf},
@@ -195,34 +204,32 @@ def build_branch(
         neutral_saddles=[
             {n: v for n, v in system.values(e.point.y).items() if n in system.names} for e in neutral
         ],
-        notes=(*notes, *_springs(problem, system, values), *_unexplained(kind, system, rows, stability, n_unstable)),
-        fixed_units={k: u for k, u in unit_of.items() if k in values[0] and k not in system.names},
+        notes=(*notes, *_springs(rows), *_unexplained(kind, rows, stability, n_unstable)),
+        fixed_units={k: u for k, u in unit_of.items() if k in base and k not in system.names},
     )
-    object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows, spectra)))
+    object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows.located, spectra)))
     object.__setattr__(branch, "start", _describe_start(branch, origin))
     return branch
 
 
-def _springs(problem: Any, system: System, values: Sequence[Values]) -> list[str]:
+def _springs(rows: CurveRows) -> list[str]:
     """Return the notes on the stiffness of a mechanism's constraints, over the range of the free parameters."""
-    if not getattr(problem, "constrained", False):
+    if not getattr(rows.system.problem, "constrained", False):
         return []
     from mjcont.springnotes import notes_on  # MuJoCo is imported only where there is a Mechanism
 
-    ends = [pick(values, key=lambda v: v[p.name]) for p in system.free for pick in (min, max)]  # noqa: B023
-    return notes_on(problem, ends)
+    columns = [rows.column(i) for i in range(len(rows.system.free))]
+    ends = [int(pick(c)) for c in columns for pick in (np.argmin, np.argmax)]
+    return notes_on(rows.system.problem, [rows.values(i) for i in ends])
 
 
-def _eigenvalues(
-    problem: Any, states: Array, values: Sequence[Values], spectra: Sequence[Spectrum | None], name: str
-) -> Array | Callable[[], Array]:
+def _eigenvalues(rows: CurveRows, spectra: Sequence[Spectrum | None]) -> Array | Callable[[], Array]:
     """Return the eigenvalues of all rows, (N, m), or a function that computes those that are missing."""
     known: list[Array | None] = [None if s is None else s.eigenvalues for s in spectra]
     missing = [i for i, s in enumerate(spectra) if s is None]
 
     def complete() -> Array:
-        late = spectra_at(problem, states[missing], [values[i] for i in missing], name) if missing else []
-        for i, s in zip(missing, late, strict=True):
+        for i, s in zip(missing, rows.late_spectra(missing), strict=True):
             known[i] = s.eigenvalues
         every = [e for e in known if e is not None]
         out = np.full((len(every), max(len(e) for e in every)), complex(np.nan, np.nan))
@@ -233,22 +240,14 @@ def _eigenvalues(
     return complete if missing else complete()
 
 
-def _unexplained(
-    kind: str,
-    system: System,
-    rows: Sequence[tuple[CurvePoint, Located | None]],
-    stability: Array,
-    n_unstable: Array,
-) -> list[str]:
+def _unexplained(kind: str, rows: CurveRows, stability: Array, n_unstable: Array) -> list[str]:
     """Return a sentence for each change of stability without a special point: several eigenvalues pass zero at once."""
     if kind != "equilibria":
         return []
-    found = []
+    found, p = [], rows.system.free[0]
     for i in np.flatnonzero(np.diff(n_unstable)).tolist():
-        (a, before), (b, after) = rows[i], rows[i + 1]
-        if before is None and after is None and "marginal" not in stability[i : i + 2]:
-            p = system.free[0]
-            between = f"{p.show(p.value(float(a.y[0])))} and {p.show(p.value(float(b.y[0])))}"
+        if rows.located[i] is rows.located[i + 1] is None and "marginal" not in stability[i : i + 2]:
+            between = " and ".join(p.show(p.value(float(rows.coordinates[k, 0]))) for k in (i, i + 1))
             found.append(
                 f"{abs(n_unstable[i + 1] - n_unstable[i])} eigenvalues pass the axis together between "
                 f"{p.name} = {between}: a point of higher multiplicity, not located"
@@ -263,17 +262,17 @@ def _frozen(data: Any) -> Array:
 
 
 def _special_points(
-    branch: Branch, rows: Sequence[tuple[CurvePoint, Located | None]], spectra: Sequence[Spectrum | None]
+    branch: Branch, located: Sequence[Located | None], spectra: Sequence[Spectrum | None]
 ) -> list[SpecialPoint]:
     counts: dict[str, int] = {}
     found = []
-    for i, (_, e) in enumerate(rows):
+    for i, e in enumerate(located):
         if e is None:
             continue
         counts[e.kind] = counts.get(e.kind, 0) + 1
         label = f"{e.kind}{counts[e.kind]}"
         known = spectra[i]
-        assert known is not None  # only points inside a step wait for theirs
+        assert known is not None  # special points have theirs
         row = branch.row_with(i, known.eigenvalues)
         found.append(special_point(row, e, label, i, branch.free, branch.kind))
     return found

@@ -74,7 +74,8 @@ class Derivatives:
         for k, name in enumerate(riders, count):
             steps.append(self.rule(name, values[name])[1])
             for target in self.parameters[name].targets:
-                ctrl[k, target.index] += target.factor * steps[-1]
+                for i in target.index:
+                    ctrl[k, i] += target.factor * steps[-1]
         rows = self.evaluator.forces(states, ctrl=ctrl)
         return rows[:count], (rows[count:] - rows[0]) / np.array(steps)[:, None]
 

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 
 from mjcont.branch import Branch, Point, SpecialPoint
-from mjcont.collect import Progress, build_branch, ordered_rows, reporter
+from mjcont.collect import Progress, build_branch, chord_of, ordered_rows, reporter
 from mjcont.continuation import (
     check_bounds,
     continue_equilibria,
     find_equilibrium,
     make_settings,
 )
+from mjcont.curverows import curve_rows
 from mjcont.errors import BoundsError, MjcontError
 from mjcont.numerics.arclength import CurvePoint, point_from
 from mjcont.numerics.events import Located
@@ -145,9 +146,9 @@ def _through(
     rows: list[tuple[CurvePoint, Located | None]] = [*minus[::-1], (bp_point, located), *plus]
     ends = [(h.end.status.value, h.end.message) for h in halves]
     notes = ["its two halves are mirror images"] if _mirrored(system, minus, plus) else []
-    return build_branch(
-        "equilibria", system, rows, ends, f"through {point.label}", len(minus), settings, neutral, notes
-    )
+    table = curve_rows(system, rows, chord_of("equilibria", settings, halves))
+    index = next(i for i, e in enumerate(table.located) if e is located)
+    return build_branch("equilibria", table, ends, f"through {point.label}", index, settings, neutral, notes)
 
 
 def _away(system: System, a: CurvePoint, b: CurvePoint) -> bool:
@@ -254,7 +255,7 @@ def covers(branch: Branch, point: Point) -> bool:
     ((name, (low, high)),) = branch.free.items()
     target = (point.parameters[name] - branch[name]) / (high - low)
     scale = problem.state_scale
-    steps = np.array([problem.difference(point.state, x) / scale for x in branch.states])
+    steps = problem.difference_each(point.state, branch.states) / scale
     z = np.column_stack([steps, target])
     chords = z[:-1] - z[1:]
     lengths = np.linalg.norm(chords, axis=1)

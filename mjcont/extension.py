@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -9,8 +10,9 @@ from typing import Any
 import numpy as np
 
 from mjcont.branch import Branch, SpecialPoint
-from mjcont.collect import Progress, build_branch, ordered_rows, reporter
+from mjcont.collect import Progress, build_branch, chord_of, ordered_rows, reporter
 from mjcont.continuation import check_bounds, make_settings
+from mjcont.curverows import curve_rows
 from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.loci import default_ends, locus_detectors
 from mjcont.numerics.arclength import CurvePoint, first_point
@@ -71,7 +73,8 @@ def extend(
 
 def _own_options(branch: Branch) -> dict[str, Any]:
     limits = ("max_points", "max_arclength", "max_seconds", "zeros")
-    return {k: v for k, v in branch.settings.items() if k not in limits}
+    kept = {k: v for k, v in branch.settings.items() if k not in limits}
+    return {"chord": math.inf, **kept}  # infinite settings are not recorded
 
 
 def _free(branch: Branch, bounds: Any) -> list[Free]:
@@ -171,17 +174,18 @@ def _as_branch(
 ) -> Branch | None:
     """Return the rows of a run beyond the arclength that is known."""
 
-    def is_new(p: CurvePoint, e: Located | None) -> bool:
+    def is_new(s: float, e: Located | None) -> bool:
         if e is None:
-            return p.s > known + _SAME
-        return p.s > known - _SAME and not _has(branch, system, e)
+            return s > known + _SAME
+        return s > known - _SAME and not _has(branch, system, e)
 
-    rows = [(p, e) for p, e in ordered_rows(run)[1:] if is_new(p, e)]
-    if not rows:
+    rows = curve_rows(system, ordered_rows(run), chord_of(branch.kind, settings, [run]))
+    new = [i for i in range(1, len(rows)) if is_new(float(rows.s[i]), rows.located[i])]
+    if not new:
         return None
     outcome = [(run.end.status.value, run.end.message)]
-    rows = rows[::-1] if end == "first" else rows
-    return build_branch(branch.kind, system, rows, outcome, branch.start, 0, settings, neutral)
+    rows = rows.chosen(new[::-1] if end == "first" else new)
+    return build_branch(branch.kind, rows, outcome, branch.start, 0, settings, neutral)
 
 
 def _has(branch: Branch, system: System, e: Located) -> bool:

@@ -6,6 +6,7 @@ state a little way along the branch's unstable continuation, and let move until 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -89,7 +90,7 @@ def load_path(
         raise ParameterError(f"landing must be one of {', '.join(LANDINGS)}; got {landing!r}")
     if not (max_time > 0 and max_jumps >= 0):
         raise ParameterError(f"max_time must be positive and max_jumps not negative, got {max_time:g} and {max_jumps}")
-    settings = make_settings(options)
+    settings = replace(make_settings(options), chord=math.inf)  # rows are the points that were reached in turn
     vertices = _vertices(problem, parameter, path, start)
     before = problem.evaluations
     first = _first(problem, given, vertices[0], start, keyframe, state)

@@ -328,6 +328,13 @@ class Mechanism(Observed):
         mujoco.mj_differentiatePos(self._model, step, 1.0, x0, x1)
         return step
 
+    def difference_each(self, ends: Array, starts: Array) -> Array:
+        """Return the tangent steps (m, nv) that take states (m, nq), or one (nq,), to others."""
+        if self._flat:
+            return ends - starts
+        ends, starts = np.broadcast_arrays(ends, starts)
+        return np.array([self.difference(b, a) for b, a in zip(ends, starts, strict=True)])
+
     def retract_each(self, states: Array, steps: Array) -> Array:
         """Return states (m, nq), or one (nq,), moved by the rows of tangent steps (m, nv)."""
         if self._flat:

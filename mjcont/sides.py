@@ -83,11 +83,13 @@ def difference_rule(parameter: Parameter, value: float, span: float | None = Non
 
     Forces are affine in controls, stiffnesses and the like, where two points are exact for any step.
     """
+    if parameter.kind == "control":
+        return CENTRED, max(1.0, abs(value))
     size = max(abs(value), 1e-2 * (span or parameter.bounds[1] - parameter.bounds[0]))
     if parameter.springs:  # a step must not lead to a negative stiffness, which MuJoCo has not
         return (CENTRED, 0.1 * abs(value)) if parameter.affine else (PARAMETER, PARAMETER.step * abs(value))
     if parameter.affine:
-        return CENTRED, max(1.0, abs(value)) if parameter.kind == "control" else 0.1 * size
+        return CENTRED, 0.1 * size
     if parameter.unit == "rad":
         return PARAMETER, min(PARAMETER.step, PARAMETER.step * size * 100.0)
     return PARAMETER, PARAMETER.step * size

@@ -21,6 +21,8 @@ from mjcont.schema import Table, shown
 
 FILE_STEM = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
 _SETTING_UNITS = {"angle": "rad", "angle_max": "rad", "max_seconds": "s"}
+# settings that may be infinite
+_ENDLESS = frozenset({"chord", "max_arclength", "max_seconds"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,7 +209,9 @@ def settings(table: Table, key: str, context: Context) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name in inner.data:
         with context.noting():
-            if name in defaults:
+            if name in _ENDLESS and inner.data[name] == math.inf:
+                found[name] = math.inf
+            elif name in defaults:
                 is_whole = isinstance(defaults[name], int)
                 unit = _SETTING_UNITS.get(name, "1")
                 found[name] = inner.integer(name, 0) if is_whole else inner.quantity(name, unit)

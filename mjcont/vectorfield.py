@@ -176,6 +176,10 @@ class VectorField:
         """Return x1 - x0."""
         return x1 - x0
 
+    def difference_each(self, ends: Array, starts: Array) -> Array:
+        """Return ends - starts, (m, n)."""
+        return ends - starts
+
     # -- observables -----------------------------------------------------------------------------------------
 
     def observe(self, name: str, function: Callable[[Array, Values], float], unit: str = "") -> None:

@@ -133,7 +133,8 @@ class FieldWriter:
         ctrl = np.empty((len(column), self.model.nu))
         ctrl[:] = self.inputs.ctrl
         for target in parameters[name].targets:
-            ctrl[:, target.index] += target.factor * (column - values[name])[:, None]
+            for i in target.index:
+                ctrl[:, i] += target.factor * (column - values[name])
         return ctrl
 
     def _forget(self) -> None:

@@ -1,4 +1,4 @@
-"""Points inside long steps: as true as those that the corrector reached one by one, and nothing between is missed."""
+"""Long steps and the points inside: as true as those reached one by one, and nothing between is missed."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ SPACING = {"ds_max": 0.05, "angle": math.radians(5.0)}
 
 
 @cache
-def branch_of(model, refine=4, k_j=1e3):
+def branch_of(model, chord=3e-6, k_j=1e3):
     """Return a branch in the load."""
     if model == "overcentre":
         values = {"F": START, "k_j": k_j}
-        return mc.continue_equilibria(mc.Mechanism.from_xml(model), "F", BOUNDS, values, refine=refine)
+        return mc.continue_equilibria(mc.Mechanism.from_xml(model), "F", BOUNDS, values, chord=chord)
     mechanism, values, key = mc.Mechanism.from_xml(model), {"F_ret": 20.0}, "uplock_above"
     if model == "nose_gear":
         values = {"F_ret": 4e5, "gravity_angle": math.radians(-20.0)}
     bounds = (0.0, 60.0) if model == "nose_gear_full" else (0.0, 8e5)
-    return mc.continue_equilibria(mechanism, "F_ret", bounds, values, keyframe=key, refine=refine)
+    return mc.continue_equilibria(mechanism, "F_ret", bounds, values, keyframe=key, chord=chord)
 
 
 def scaled(branch):
@@ -52,35 +52,12 @@ def test_every_point_balances_the_forces_written_by_hand(k_j):
 
 
 @pytest.mark.parametrize("k_j", [1e3, 1e6])
-def test_points_lie_as_close_as_the_refinement_asks(k_j):
-    plain, fine = (scaled(branch_of("overcentre", refine, k_j)) for refine in (1, 4))
-    for points, spacing in ((plain, SPACING["ds_max"]), (fine, SPACING["ds_max"] / 4.0)):
-        assert np.linalg.norm(np.diff(points, axis=0), axis=1).max() < 1.15 * spacing
-    chords = np.diff(fine, axis=0)
-    chords = chords[np.linalg.norm(chords, axis=1) > 1e-4]
-    chords /= np.linalg.norm(chords, axis=1)[:, None]
-    assert np.arccos(np.min(np.sum(chords[1:] * chords[:-1], axis=1))) < SPACING["angle"]
-
-
-@pytest.mark.parametrize("model", ["overcentre", "nose_gear", "nose_gear_full"])
-def test_special_points_do_not_depend_on_the_refinement(model):
-    plain, fine = branch_of(model, 1), branch_of(model, 4)
-    assert len(fine) > 2.5 * len(plain)
-    assert [p.label for p in fine.special_points] == [p.label for p in plain.special_points]
-    for a, b in zip(fine.special_points, plain.special_points, strict=True):
-        assert b.state == pytest.approx(a.state, abs=1e-8)
-
-
-def test_a_refined_branch_costs_few_evaluations_a_point():
-    mechanism = mc.Mechanism.from_xml("overcentre")
-    branch = mc.continue_equilibria(mechanism, "F", BOUNDS, {"F": START})
-    assert mechanism.evaluations < 8 * len(branch)
-
-
-@pytest.mark.parametrize("refine", [0, -1, 1.5])
-def test_a_refinement_that_is_no_whole_number_from_one_on_is_refused(refine):
-    with pytest.raises(mc.ParameterError, match=f"refine must be a whole number, 1 or more, got {refine}"):
-        mc.continue_equilibria(mc.Mechanism.from_xml("overcentre"), "F", BOUNDS, {"F": START}, refine=refine)
+def test_points_lie_as_close_as_the_steps_ask(k_j):
+    chords = np.diff(scaled(branch_of("overcentre", math.inf, k_j)), axis=0)
+    lengths = np.linalg.norm(chords, axis=1)
+    assert lengths.max() < 1.15 * SPACING["ds_max"]
+    chords = chords[lengths > 1e-4] / lengths[lengths > 1e-4, None]
+    assert np.arccos(np.min(np.sum(chords[1:] * chords[:-1], axis=1))) < 3.0 * SPACING["angle"]
 
 
 # -- stability and eigenvalues --------------------------------------------------------------------------------
@@ -145,7 +122,7 @@ def test_two_folds_close_to_their_cusp_are_both_found(force):
     gear = mc.Mechanism.from_xml("nose_gear")
     start = {"F_ret": 4e5, "F_ul": force, "gravity_angle": 0.0}
     kinds, places = [], []
-    for options in ({}, {"ds_max": 0.01, "refine": 1}):
+    for options in ({}, {"ds_max": 0.01}):
         branch = mc.continue_equilibria(gear, "F_ret", (0.0, 8e5), start, keyframe="uplock_above", **options)
         kinds.append([p.kind for p in branch.special_points])
         places.append(sorted(p["F_ret"] for p in branch.special_points))
@@ -193,7 +170,7 @@ def test_a_user_s_stop_is_asked_at_every_point():
         return "far enough" if abs(point["F"]) < 10.0 else None
 
     branch = mc.continue_equilibria(
-        mc.Mechanism.from_xml("overcentre"), "F", BOUNDS, {"F": START}, direction=-1, stop=stop
+        mc.Mechanism.from_xml("overcentre"), "F", BOUNDS, {"F": START}, direction=-1, stop=stop, chord=math.inf
     )
     regular = [f for f, label in zip(branch["F"], branch.labels, strict=True) if not label]
     assert sorted(seen) == pytest.approx(sorted(regular), abs=0.0)
@@ -203,7 +180,7 @@ def test_a_user_s_stop_is_asked_at_every_point():
 @pytest.mark.parametrize("most", [2, 7, 20, 33])
 def test_the_limit_of_points_counts_those_inside_steps(most):
     branch = mc.continue_equilibria(
-        mc.Mechanism.from_xml("overcentre"), "F", BOUNDS, {"F": START}, direction=-1, max_points=most
+        mc.Mechanism.from_xml("overcentre"), "F", BOUNDS, {"F": START}, direction=-1, max_points=most, chord=math.inf
     )
     assert branch.status == "max points"
     assert len(branch) - len(branch.special_points) == most
@@ -211,7 +188,7 @@ def test_the_limit_of_points_counts_those_inside_steps(most):
 
 def test_the_iterator_yields_the_points_of_the_branch():
     mechanism = mc.Mechanism.from_xml("overcentre")
-    branch = mc.continue_equilibria(mechanism, "F", BOUNDS, {"F": START}, direction=-1)
+    branch = mc.continue_equilibria(mechanism, "F", BOUNDS, {"F": START}, direction=-1, chord=math.inf)
     points = list(mc.iterate_equilibria(mechanism, "F", BOUNDS, {"F": START}, direction=-1))
     assert [p["F"] for p in points] == pytest.approx(branch["F"][::-1], abs=1e-12)
 

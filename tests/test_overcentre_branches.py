@@ -88,9 +88,11 @@ def test_folds_do_not_depend_on_the_spring_damper(overcentre_branch):
         assert a["theta_1"] == pytest.approx(b["theta_1"], abs=1e-10)
 
 
-def test_labels_and_folds_do_not_depend_on_the_step(overcentre, overcentre_branch):
-    fine = mc.continue_equilibria(overcentre, "F", bounds=BOUNDS, start={"F": START}, ds_max=0.02)
-    coarse = overcentre_branch()
+def test_labels_and_folds_do_not_depend_on_the_step(overcentre):
+    fine, coarse = (
+        mc.continue_equilibria(overcentre, "F", bounds=BOUNDS, start={"F": START}, ds_max=d, chord=np.inf)
+        for d in (0.02, 0.05)
+    )
     assert len(fine) > 2 * len(coarse)
     for a, b in zip(fine.special_points, coarse.special_points, strict=True):
         assert a.label == b.label

@@ -89,7 +89,7 @@ def test_a_parameter_declared_in_the_study_is_one_of_the_models(tmp_path: Path) 
 
 
 def test_settings_and_direction_reach_the_continuation(tmp_path: Path) -> None:
-    text = GOOD + 'direction = -1\n[branch.settings]\nmax_points = 5\nangle = "3 deg"\n'
+    text = GOOD + 'direction = -1\n[branch.settings]\nmax_points = 5\nangle = "3 deg"\nchord = inf\n'
     (branch,) = run_study(load_study(write(tmp_path, text)), tmp_path)
     assert len(branch) == 5
     assert branch["F"].max() == 50.0

@@ -29,6 +29,8 @@ _GROWTH = 2.0
 # a parameter that moves by less along the tangent has no direction: the start is a fold, and noise would decide
 _AT_FOLD = 1e-5
 _PAST = 4
+# part of its slopes at two points to which a function's slope may fall between them: below, it may turn twice there
+DIP = 0.3
 # points nearer to each other than this part of a step, or this far, are a cluster
 _CLUSTER, _NOISY = 0.2, 1e-5
 # how far behind a start the points lie from which the other direction is predicted
@@ -155,7 +157,7 @@ def predict(point: CurvePoint, h: float) -> Array:
         return h * point.tangent
     values, slopes = hermite([0.0, *(e.s - point.s for e in past)], h)
     steps, tangents = (e.step for e in past), (e.tangent for e in past)
-    return combine(np.concatenate([slopes, values[1:]]), [point.tangent, *tangents, *steps])
+    return combine([*slopes, *values[1:]], [point.tangent, *tangents, *steps])
 
 
 def _apart(point: CurvePoint, h: float) -> list[Earlier]:
@@ -229,14 +231,15 @@ def _slope(system: System, old: CurvePoint, new: CurvePoint, index: int) -> tupl
 def may_turn_twice(system: System, old: CurvePoint, new: CurvePoint, index: int) -> bool:
     """Whether y[index] could have two extrema between points at which it moves the same way.
 
-    Judged on the cubic through both points with their tangents.
+    Judged on the cubic through both points with their tangents: whether its slope falls far below those at both.
     """
     i = system.n + index
-    if old.tangent[i] * new.tangent[i] <= 0 or new.s <= old.s:
+    a, b = float(old.tangent[i]), float(new.tangent[i])
+    if a * b <= 0 or new.s <= old.s:
         return False
     a, p, q = _slope(system, old, new, index)
     t = -p / q if q else -1.0
-    return bool(0.0 < t < 1.0 and (a + p * t) * a < 0)
+    return bool(0.0 < t < 1.0 and math.copysign(1.0, a) * (a + p * t) < DIP * min(abs(a), abs(b)))
 
 
 def turning_fraction(system: System, old: CurvePoint, new: CurvePoint, index: int) -> float:

@@ -57,7 +57,7 @@ class Factored:
         if self._sparse:
             negative = np.count_nonzero(self._lu.U.diagonal() < 0)
             return _parity(self._lu.perm_r) * _parity(self._lu.perm_c) * (1.0 - 2.0 * (negative % 2))
-        swaps = np.count_nonzero(self._pivots != np.arange(len(self._pivots)))
+        swaps = sum(i != p for i, p in enumerate(self._pivots.tolist()))
         return 1.0 - 2.0 * ((swaps + np.count_nonzero(self._lu.diagonal() < 0.0)) % 2)
 
     def solve(self, rhs: Array) -> Array:

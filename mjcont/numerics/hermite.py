@@ -1,48 +1,66 @@
-"""Interpolation along a curve: weights of Hermite's polynomial (values and slopes) and of Lagrange's (values)."""
+"""Interpolation along a curve: weights of Hermite's polynomial (values and slopes) and of Lagrange's (values).
+
+Source: Quarteroni, Sacco, Saleri, Numerical Mathematics (Springer 2007), sections 8.1 and 8.5.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from mjcont.numerics.problem import Array
 
 
-def lagrange(nodes: Sequence[float], at: Any) -> Any:
-    """Return the weight of each node's value in the polynomial through all: (k,) for a number, (k, m) for an array."""
-    if isinstance(at, np.ndarray):
-        places = np.array(nodes)
-        gaps = places[:, None] - places
-        np.fill_diagonal(gaps, 1.0)
-        parts = (at - places[:, None])[None] / gaps[:, :, None]
-        parts[np.arange(len(places)), np.arange(len(places))] = 1.0
-        return parts.prod(axis=1)
+def lagrange(nodes: Sequence[float], at: float) -> list[float]:
+    """Return the weight of each node's value in the polynomial through all."""
     weights = []
-    for i, a in enumerate(nodes):
+    for a in nodes:
         weight = 1.0
-        for j, b in enumerate(nodes):
-            if j != i:
+        for b in nodes:
+            if b != a:
                 weight *= (at - b) / (a - b)
         weights.append(weight)
-    return np.array(weights)
+    return weights
 
 
-def hermite(nodes: Sequence[float], at: Any, weights: Any = None) -> tuple[Any, Any]:
-    """Return the weights of the nodes' values and of their slopes in Hermite's polynomial of degree 2 k - 1.
+def hermite(nodes: Sequence[float], at: float) -> tuple[list[float], list[float]]:
+    """Return the weights of the nodes' values and of their slopes in Hermite's polynomial of degree 2 k - 1."""
+    values, slopes = [], []
+    for a, weight in zip(nodes, lagrange(nodes, at), strict=True):
+        bend, square = 2.0 * sum(1.0 / (a - b) for b in nodes if b != a), weight * weight
+        values.append(square - bend * (at - a) * square)
+        slopes.append(square * (at - a))
+    return values, slopes
 
-    `weights` are those of `lagrange`, if they are known. Source: Quarteroni, Sacco, Saleri, Numerical Mathematics
-    (Springer 2007), section 8.5.
-    """
-    found = lagrange(nodes, at) if weights is None else weights
-    bends = np.array([2.0 * sum(1.0 / (a - b) for j, b in enumerate(nodes) if j != i) for i, a in enumerate(nodes)])
-    away = np.array([at - a for a in nodes])
+
+def weights_along(nodes: Sequence[float], at: Array) -> tuple[Array, Array, Array]:
+    """Return the weights of `lagrange`, and those of values and slopes of `hermite`, at places (m,), (m, k) each."""
+    places = np.array(nodes)
+    away = at[:, None] - places
+    shares, found = _lagrange(places - places[:, None], away)
     square = found * found
-    if square.ndim > 1:
-        bends = bends[:, None]
-    return square - bends * away * square, away * square
+    slopes = away * square
+    return found, square - (2.0 * shares.sum(axis=0) - 2.0) * slopes, slopes
+
+
+def lagrange_each(nodes: Array, at: Array) -> Array:
+    """Return the weights of `lagrange`, (m, k), for rows of nodes (m, k) and one place each (m,)."""
+    return _lagrange(nodes[:, None] - nodes[:, :, None], at[:, None] - nodes)[1]
+
+
+def _lagrange(gaps: Array, away: Array) -> tuple[Array, Array]:
+    """Return 1 / gaps, ones where a node meets itself, and the weights of nodes that lie `away` (m, k) from places.
+
+    `gaps` [..., j, i] are node i minus node j; they are overwritten.
+    """
+    own = np.arange(away.shape[1])
+    gaps[..., own, own] = 1.0
+    shares = 1.0 / gaps
+    parts = away[:, :, None] * shares
+    parts[:, own, own] = 1.0
+    return shares, parts.prod(axis=1)
 
 
 def arc(chord: float, cosine: float) -> float:
@@ -51,8 +69,8 @@ def arc(chord: float, cosine: float) -> float:
     return chord * half / math.sin(half) if half > 1e-4 else chord
 
 
-def combine(weights: Array, parts: Sequence[Array]) -> Array:
-    """Return sum_i weights[i] * parts[i]; weights are (k,), or (k, m) and give (m, *shape of a part)."""
-    stack = np.array(parts)
-    out = weights.T @ stack.reshape(len(parts), -1)
-    return out.reshape((*weights.shape[1:], *stack.shape[1:]))
+def combine(weights: Array | Sequence[float], parts: Sequence[Array]) -> Array:
+    """Return sum_i weights[i] * parts[i]; weights are (k,), or (m, k) and give (m, *shape of a part)."""
+    stack, table = np.array(parts), np.asarray(weights)
+    out = table @ stack.reshape(len(parts), -1)
+    return out.reshape((*table.shape[:-1], *stack.shape[1:]))

@@ -13,13 +13,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mjcont.numerics.arclength import CurvePoint, Earlier
+from mjcont.numerics.arclength import DIP, CurvePoint, Earlier
 from mjcont.numerics.bordered import Factored
-from mjcont.numerics.hermite import combine, hermite, lagrange
+from mjcont.numerics.hermite import combine, weights_along
 from mjcont.numerics.newton import LARGEST_ERROR, length, with_row
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
-from mjcont.numerics.system import ROW_GUARD, System
+from mjcont.numerics.system import System, equation_sizes
 
 # numbers of interior points, so that few sizes of batches are needed
 _COUNTS = (1, 2, 3, 4, 6, 8, 12, 16, 23, 31, 47, 63, 95)
@@ -39,7 +39,7 @@ _UNSURE, _TURNING = 5e-3, 0.02
 # interpolation errors aimed at: the size of the first correction
 _ERROR = 1e-4
 # contraction aimed at where matrices are interpolated
-_RATE = 1e-3
+_RATE = 3e-3
 
 
 @dataclass(slots=True)
@@ -71,7 +71,7 @@ class Interior:
 
 def count_inside(length: float, angle: float, settings: Settings) -> int:
     """Return how many points a step of some length and turning angle needs inside; more than `MOST` if too many."""
-    needed = settings.refine * max(length / settings.ds_max, angle / settings.angle) - 1.0
+    needed = max(length / settings.ds_max, angle / settings.angle) - 1.0
     return next((c for c in _COUNTS if c >= needed), MOST + 1) if needed > _SLACK else 0
 
 
@@ -108,7 +108,7 @@ def fill(
         if not _contracting(sizes, exact):
             return "the points within the step do not settle between its ends"
         states, coordinates = system.move_each(states, coordinates, -moves)
-    errors = _errors(jacs, residuals, n)
+    errors = np.max(np.abs(residuals) / equation_sizes(jacs), axis=1)
     if not errors.max() < LARGEST_ERROR:
         return "the points within the step stall away from the curve"
     found = inverse[:, :, -1]
@@ -150,10 +150,9 @@ def _interpolated(new: CurvePoint, at: Array) -> tuple[Array, Array, Array]:
     """Return steps from `new` (m, n + 1), unit tangents and matrices (m, n, n + 1) at arclengths (m,) before it."""
     nodes = [0.0, *(e.s - new.s for e in new.past)]
     there = at - new.s
-    weights = lagrange(nodes, there)
-    values, slopes = hermite(nodes, there, weights)
+    weights, values, slopes = weights_along(nodes, there)
     tangents = [new.tangent, *(e.tangent for e in new.past)]
-    steps = combine(np.concatenate([slopes, values[1:]]), [*tangents, *(e.step for e in new.past)])
+    steps = slopes @ np.array(tangents) + values[:, 1:] @ np.array([e.step for e in new.past])
     turned = combine(weights, tangents)
     turned /= np.sqrt((turned * turned).sum(axis=1))[:, None]
     return steps, turned, combine(weights, [new.jac, *(e.jac for e in new.past)])
@@ -176,13 +175,6 @@ def _contracting(sizes: list[float], exact: bool) -> bool:
     return sizes[-1] <= sizes[-2] * (_CONTRACTION if exact or len(sizes) > 2 else _INTERPOLATED)
 
 
-def _errors(jacs: Array, residuals: Array, n: int) -> Array:
-    """Return the largest scaled residual at each point, (m,); see `equation_scale`."""
-    largest = np.abs(jacs[:, :, :n]).max(axis=2)
-    top = np.maximum(largest.max(axis=1), ROW_GUARD * np.abs(jacs[:, :, n]).max(axis=1))
-    return np.max(np.abs(residuals) / np.maximum(largest, ROW_GUARD * top[:, None]), axis=1)
-
-
 def _checked(system: System, old: CurvePoint, new: CurvePoint, inside: Interior, settings: Settings) -> Interior | str:
     """Return the interior with changes told, or why the step is refused."""
     every = [old, *inside.points, new]
@@ -190,12 +182,12 @@ def _checked(system: System, old: CurvePoint, new: CurvePoint, inside: Interior,
     cosines = (tangents[1:] * tangents[:-1]).sum(axis=1)
     if cosines.min() < math.cos(settings.angle_max):
         return f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg between points"
-    along, signs = tangents[:, system.n], np.array([p.sign for p in every])
-    values, s = np.array([p.y[0] for p in every]), np.array([p.s for p in every])
+    along = tangents[:, system.n]
+    signs, values, s = np.array([(p.sign, p.y[0], p.s) for p in every]).T
     unsure = min(max(5.0 * inside.rate, _UNSURE), _TURNING)
     own = np.zeros(len(inside.points), dtype=bool)
     while True:
-        changes, twice = _changes(along, signs), _turn_twice(along, values, s)
+        changes, twice = _changes(along, signs), _may_turn_twice(along, values, s)
         pairs = changes | twice
         asked = ((np.abs(along[1:-1]) < unsure) | pairs[1:] | pairs[:-1]) & ~own
         if not asked.any():
@@ -219,15 +211,13 @@ def _changes(along: Array, signs: Array) -> Array:
     return (along[1:] * along[:-1] <= 0.0) | (signs[1:] * signs[:-1] <= 0.0)
 
 
-def _turn_twice(slopes: Array, values: Array, s: Array) -> Array:
-    """Return for each pair of points at which a function moves the same way whether it could have two extrema between.
-
-    See `may_turn_twice`.
-    """
+def _may_turn_twice(slopes: Array, values: Array, s: Array) -> Array:
+    """Return `may_turn_twice` for each pair of points, of a function with given slopes and values at arclengths s."""
     a, b, mean = slopes[:-1], slopes[1:], np.diff(values) / np.diff(s)
     p, q = 3.0 * mean - 2.0 * a - b, 3.0 * (a + b - 2.0 * mean)
     t = -p / np.where(q != 0.0, q, np.inf)
-    return (a * b > 0.0) & (t > 0.0) & (t < 1.0) & ((a + p * t) * a < 0.0)
+    least = (a + p * t) * np.sign(a)
+    return (a * b > 0.0) & (t > 0.0) & (t < 1.0) & (least < DIP * np.minimum(np.abs(a), np.abs(b)))
 
 
 def _refine(system: System, point: CurvePoint) -> None:

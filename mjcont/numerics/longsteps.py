@@ -38,7 +38,7 @@ class LongSteps:
 
     def __post_init__(self) -> None:
         given = self.settings
-        reach = max(min(_REACH, MOST * given.ds_max / given.refine), given.ds_max)
+        reach = max(min(_REACH, MOST * given.ds_max), given.ds_max)
         angle, angle_max = max(_ANGLE, given.angle), max(_ANGLE_MAX, given.angle_max)
         self.far = replace(given, ds_max=reach, angle=angle, angle_max=angle_max)
 
@@ -48,12 +48,12 @@ class LongSteps:
 
     def inside(self, old: CurvePoint, new: CurvePoint) -> Interior | str:
         """Return the points inside a step, or a sentence that says why it is refused."""
-        count = count_inside(new.s - old.s, new.angle, self.settings)
+        length, exact = new.s - old.s, self._exact
+        count = count_inside(length, new.angle, self.settings)
         if count == 0:
             return Interior([])
         if count > MOST:
             return "the step needs too many points inside"
-        length, exact = new.s - old.s, self._exact
         found = fill(self.system, old, new, count, self.settings, exact=exact)
         if exact:
             self._interpolated *= _LONGER_INTERPOLATED

@@ -174,10 +174,10 @@ def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int =
     """
     x0, y0 = x, y
     best, size, ratio, local = np.inf, np.inf, 0.0, system.local(x, y)
-    since_best, factored = 0, None
+    since_best, factored, near = 0, None, local
     best_at = (x, y)
     for iteration in range(1, most + 1):
-        factored = Factored(system.jacobian(local, y))
+        factored, near = Factored(system.jacobian(local, y)), local
         step, _ = _newton_step(system, local, y, factored, None)
         last, size = size, length(step)
         if not np.isfinite(size) or (size > _LARGEST_STEP and iteration > 2):
@@ -197,7 +197,7 @@ def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int =
     failure = "" if best < 1e-6 else "Newton's method did not converge"
     if not failure and np.linalg.norm(system.difference(x, y, x0, y0)) > 2.0 * reach:
         failure = "Newton's method left the neighbourhood"
-    return Corrected(x, y, local, factored, iteration, ratio, best, system.error(local, x, y), failure)
+    return Corrected(x, y, local, factored, iteration, ratio, best, system.error(near, x, y), failure)
 
 
 @dataclass(frozen=True, slots=True)

@@ -114,6 +114,10 @@ class Problem(Protocol):
         """Return states (m, nq), or one (nq,), moved by the rows of tangent steps (m, n)."""
         ...
 
+    def difference_each(self, ends: Array, starts: Array) -> Array:
+        """Return the tangent steps (m, n) that take states (m, nq), or one (nq,), to others."""
+        ...
+
     def difference(self, x1: Array, x0: Array) -> Array:
         """Return the tangent step (n,) that takes x0 to x1."""
         ...

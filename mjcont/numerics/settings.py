@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 from mjcont.errors import ParameterError
 
+SMALLEST_CHORD = 1e-9
+
 
 @dataclass(frozen=True, slots=True)
 class Settings:
@@ -23,9 +25,9 @@ class Settings:
     max_corrections : int
         Corrector iterations before a step is given up.
     max_points, max_arclength, max_seconds : limits of one direction.
-    refine : int
-        How many times closer than `ds_max` and `angle` ask for the points inside long steps lie, where such points are
-        cheap: along a control of a mechanism that is smooth and damped by dampers alone.
+    chord : float
+        Largest distance of straight lines between the rows of a branch from the curve, where rows between its points
+        are cheap: along a control of a mechanism without contacts, limits or friction. Infinity adds none.
     max_size : float
         Largest scaled state coordinate, relative to the start's if that exceeds one: where a curve runs off.
     """
@@ -41,7 +43,7 @@ class Settings:
     max_arclength: float = math.inf
     max_seconds: float = math.inf
     max_size: float = 100.0
-    refine: int = 4
+    chord: float = 3e-6
 
     def __post_init__(self) -> None:
         if not 0 < self.ds_min <= self.ds <= self.ds_max:
@@ -52,5 +54,5 @@ class Settings:
             raise ParameterError("angles must satisfy 0 < angle < angle_max < pi/2 (radians)")
         if self.max_points < 2 or self.max_corrections < 2:
             raise ParameterError("max_points and max_corrections must be at least 2")
-        if self.refine < 1 or self.refine != int(self.refine):
-            raise ParameterError(f"refine must be a whole number, 1 or more, got {self.refine}")
+        if not self.chord >= SMALLEST_CHORD:
+            raise ParameterError(f"chord must be {SMALLEST_CHORD:g} or more (inf adds no rows), got {self.chord:g}")

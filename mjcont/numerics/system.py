@@ -147,6 +147,14 @@ def equation_scale(local: Local) -> Array:
     return 1.0 / np.maximum(largest, ROW_GUARD * top)
 
 
+def equation_sizes(jacs: Array) -> Array:
+    """Return the size of each equation, guarded as in `equation_scale`, from matrices (m, n, n + 1), shape (m, n)."""
+    n = jacs.shape[1]
+    largest = np.abs(jacs[:, :, :n]).max(axis=2)
+    top = np.maximum(largest.max(axis=1), ROW_GUARD * np.abs(jacs[:, :, n]).max(axis=1))
+    return np.maximum(largest, ROW_GUARD * top[:, None])
+
+
 class Condition(Protocol):
     """Equations beside f = 0.
 
@@ -327,6 +335,11 @@ class System:
         step[: self.n] /= self.problem.state_scale
         step[self.n :] = y1 - y0
         return step
+
+    def chords(self, states: Array, coordinates: Array) -> Array:
+        """Return the scaled steps from each point to the next, (m - 1, n + k), for states (m, nq) and y (m, k)."""
+        moves = self.problem.difference_each(states[1:], states[:-1]) / self.problem.state_scale
+        return np.hstack([moves, np.diff(coordinates, axis=0)])
 
     def update(self, local: Local, y: Array) -> None:
         """Renew the conditions' borders at a solution."""

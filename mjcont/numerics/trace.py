@@ -103,6 +103,7 @@ class Walker:
     end_at: frozenset[str] = frozenset()
     long: LongSteps | None = None
     _fresh: bool = field(default=False, init=False)
+    _turns: Array | None = field(default=None, init=False)
 
     def walk(self, start: CurvePoint) -> Iterator[CurvePoint | Located | End]:
         """Yield the curve's points after `start`, special points before the point that follows them, and the end."""
@@ -173,7 +174,10 @@ class Walker:
         if time.monotonic() - began > settings.max_seconds:
             return End(Status.MAX_TIME, f"the limit of {settings.max_seconds:g} s was reached")
         message = self.stop(point) if self.stop is not None else None
-        return End(Status.STOPPED, message) if message else None
+        if not message:
+            return None
+        point.extra["outside"] = True
+        return End(Status.STOPPED, message)
 
     def _step(self, point: CurvePoint, h: float) -> Step | End:
         """Return the next step, or the end of a curve that cannot be followed."""
@@ -269,7 +273,9 @@ class Walker:
         problem: Any = self.system.problem
         if self.system.conditions or not hasattr(problem, "periods"):
             return np.full(self.system.n, np.inf)
-        return problem.periods(start.x, self.system.values(start.y)) / problem.state_scale
+        if self._turns is None:
+            self._turns = problem.periods(start.x, self.system.values(start.y)) / problem.state_scale
+        return self._turns
 
     def _may_pass(self, start: CurvePoint, point: CurvePoint, step: Step, periods: Array) -> bool:
         """Whether the start, or a full turn of it, is as near as a step could pass it."""
