@@ -21,8 +21,9 @@ from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.spectrum import Spectrum
 from mjcont.numerics.stability import local_spectrum
+from mjcont.numerics.steps import End, Status
 from mjcont.numerics.system import Local, System
-from mjcont.numerics.trace import End, Status, Trace, Walker, trace
+from mjcont.numerics.trace import Trace, Walker, trace
 from mjcont.storage import special_from_row
 
 

@@ -23,8 +23,9 @@ from mjcont.numerics.events import Located
 from mjcont.numerics.newton import correct, solve
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
+from mjcont.numerics.steps import End, Status
 from mjcont.numerics.system import Free, System
-from mjcont.numerics.trace import End, Status, Trace, trace
+from mjcont.numerics.trace import Trace, trace
 from mjcont.walkers import equilibrium_walker
 
 _OFFSET = 1e-2

@@ -60,6 +60,20 @@ def test_points_lie_as_close_as_the_steps_ask(k_j):
     assert np.arccos(np.min(np.sum(chords[1:] * chords[:-1], axis=1))) < 3.0 * SPACING["angle"]
 
 
+@pytest.mark.parametrize(("model", "parameter"), [("overcentre", "F"), ("nose_gear", "F_ret")])
+def test_steps_filled_together_lead_to_the_curve_of_steps_filled_one_by_one(model, parameter, monkeypatch):
+    together = branch_of(model, math.inf)
+    monkeypatch.setattr("mjcont.numerics.trace._AHEAD", 0)
+    values = {p: together.parameters_at(together.start_index)[p] for p in together.problem.parameters}
+    start, bounds = together.states[together.start_index], together.free[parameter]
+    alone = mc.continue_equilibria(together.problem, parameter, bounds, values, state=start, chord=math.inf)
+    assert [p.label for p in alone.special_points] == [p.label for p in together.special_points]
+    for a, b in zip(alone.special_points, together.special_points, strict=True):
+        assert a.state == pytest.approx(b.state, abs=1e-8)
+    assert alone.ends == together.ends
+    assert 0.8 < len(alone) / len(together) < 1.25
+
+
 # -- stability and eigenvalues --------------------------------------------------------------------------------
 
 

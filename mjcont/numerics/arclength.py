@@ -29,8 +29,9 @@ _GROWTH = 2.0
 # a parameter that moves by less along the tangent has no direction: the start is a fold, and noise would decide
 _AT_FOLD = 1e-5
 _PAST = 4
-# part of its slopes at two points to which a function's slope may fall between them: below, it may turn twice there
-DIP = 0.3
+# part of the smaller of its slopes at two points to which a function's slope may fall between them, where it is not far
+# below the larger one
+_DIP, _FAR_BELOW = 0.7, 0.1
 # points nearer to each other than this part of a step, or this far, are a cluster
 _CLUSTER, _NOISY = 0.2, 1e-5
 # how far behind a start the points lie from which the other direction is predicted
@@ -231,15 +232,34 @@ def _slope(system: System, old: CurvePoint, new: CurvePoint, index: int) -> tupl
 def may_turn_twice(system: System, old: CurvePoint, new: CurvePoint, index: int) -> bool:
     """Whether y[index] could have two extrema between points at which it moves the same way.
 
-    Judged on the cubic through both points with their tangents: whether its slope falls far below those at both.
+    Judged on the cubic through both points with their tangents, whose slope is to have no minimum far below those at
+    both points (none at all where one is far below the other), and on the point before: the slope at `old` is not to
+    be far below those on both sides.
     """
     i = system.n + index
     a, b = float(old.tangent[i]), float(new.tangent[i])
     if a * b <= 0 or new.s <= old.s:
         return False
-    a, p, q = _slope(system, old, new, index)
-    t = -p / q if q else -1.0
-    return bool(0.0 < t < 1.0 and math.copysign(1.0, a) * (a + p * t) < DIP * min(abs(a), abs(b)))
+    slopes = [float(old.past[0].tangent[i]), a, b] if old.past else [a, b]
+    values = np.array([0.0, float(system.difference(new.x, new.y, old.x, old.y)[i])])
+    twice = pairs_may_turn_twice(np.array([a, b]), values, np.array([old.s, new.s]))
+    return bool(twice[0]) or dips(np.array(slopes))
+
+
+def pairs_may_turn_twice(slopes: Array, values: Array, s: Array) -> Array:
+    """Return `may_turn_twice` for pairs of successive points of a function with slopes and values at arclengths s."""
+    a, b, mean = slopes[:-1], slopes[1:], np.diff(values) / np.diff(s)
+    p, q = 3.0 * mean - 2.0 * a - b, 3.0 * (a + b - 2.0 * mean)
+    t = -p / np.where(q != 0.0, q, np.inf)
+    small, large = np.minimum(np.abs(a), np.abs(b)), np.maximum(np.abs(a), np.abs(b))
+    floor = np.where(small < _FAR_BELOW * large, 1.0, _DIP) * small
+    return (a * b > 0.0) & (t > 0.0) & (t < 1.0) & ((a + p * t) * np.sign(a) < floor)
+
+
+def dips(slopes: Array) -> bool:
+    """Whether a slope is far below those on both sides."""
+    size, same = np.abs(slopes), slopes[1:] * slopes[:-1] > 0.0
+    return bool((same[1:] & same[:-1] & (size[1:-1] < _FAR_BELOW * np.minimum(size[:-2], size[2:]))).any())
 
 
 def turning_fraction(system: System, old: CurvePoint, new: CurvePoint, index: int) -> float:

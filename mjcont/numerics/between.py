@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mjcont.numerics.arclength import CurvePoint
-from mjcont.numerics.hermite import arc, lagrange_each
+from mjcont.numerics.hermite import arc, lagrange_each, mixed
 from mjcont.numerics.problem import Array
 from mjcont.numerics.system import System, equation_sizes
 
@@ -23,12 +23,12 @@ _NODES = 8
 _CLUSTER = 0.2
 # gaps shorter than this, or with ends whose tangents differ by more (as a length), stay as they are
 _SHORT, _TURNED = 1e-7, 0.6
-# rows of an evaluation, of few sizes so that batches are kept, and entries of the matrices held at a time
-_BATCH, _REST, _ENTRIES = 32, 8, 2**19
+# rows that are corrected together at least, and entries of their matrices at most
+_TOGETHER, _ENTRIES = 32, 2**19
 _ROUNDS = 4
 # corrections: the largest first one in parts of the gap, the contraction at worst, the largest last one, what may
-# remain after it, and below what size corrections that no longer contract are noise
-_FIRST, _CONTRACTION, _LAST, _REMAINS, _NOISE = 0.02, 0.3, 1e-11, 1e-13, 1e-9
+# remain after it, and below what size corrections that no longer contract are noise; scaled residuals at last
+_FIRST, _CONTRACTION, _LAST, _REMAINS, _NOISE, _ERROR = 0.02, 0.3, 1e-11, 1e-13, 1e-9, 5e-13
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +83,7 @@ def rows_between(system: System, points: Sequence[CurvePoint], chord: float) -> 
     fraction = (np.arange(len(after)) - firsts + 1.0) / (counts[after] + 1.0)
     windows, sizes = _windows(nodes.s, np.flatnonzero(counts))
     parts: list[Between] = []
-    together = max(_ENTRIES // (system.n + 1) ** 2, _BATCH)
+    together = max(_ENTRIES // (system.n + 1) ** 2, _TOGETHER)
     for size in np.unique(sizes[after]).tolist():
         chosen = np.flatnonzero(sizes[after] == size)
         for first in range(0, len(chosen), together):
@@ -172,52 +172,37 @@ def _settled(system: System, nodes: _Nodes, windows: Array, after: Array, fracti
     steps = (weights[:, :, None] * (nodes.ways[windows] - nodes.ways[after][:, None])).sum(axis=1)
     states, coordinates = system.move_each(nodes.states[after], nodes.coordinates[after], steps)
     matrix = np.empty((len(after), n + 1, n + 1))
-    matrix[:, n], matrix[:, :n] = nodes.tangents[after], 0.0
-    for k in range(windows.shape[1]):
-        matrix[:, :n] += weights[:, k, None, None] * nodes.jacs[windows[:, k]]
+    matrix[:, n], matrix[:, :n] = nodes.tangents[after], mixed(weights, nodes.jacs, windows)
     try:
         inverse = np.linalg.inv(matrix)[:, :, :n]
     except np.linalg.LinAlgError:
         return None
-    residuals, kept = _corrected(system, states, coordinates, inverse, _FIRST * gaps)
-    errors = np.max(np.abs(residuals) / equation_sizes(matrix[:, :n]), axis=1)
+    errors, kept = _corrected(system, states, coordinates, inverse, equation_sizes(matrix[:, :n]), _FIRST * gaps)
     return Between(after[kept], fraction[kept], states[kept], coordinates[kept], errors[kept])
 
 
 def _corrected(
-    system: System, states: Array, coordinates: Array, inverse: Array, reach: Array
+    system: System, states: Array, coordinates: Array, inverse: Array, scale: Array, reach: Array
 ) -> tuple[Array, Array]:
-    """Correct rows in place with inverse matrices (m, n + 1, n); return residuals and which settle within a reach.
+    """Correct rows in place with inverse matrices (m, n + 1, n); return their errors and which settle within a reach.
 
-    The residuals are those before the last correction, which leaves less than the noise of f.
+    Errors are residuals over `scale` (m, n) before the last correction, which leaves less than the noise of f.
     """
-    residuals, kept = np.empty((len(states), system.n)), np.zeros(len(states), dtype=bool)
+    errors, kept = np.empty(len(states)), np.zeros(len(states), dtype=bool)
     last, rows = np.empty(len(states)), np.arange(len(states))
     for turn in range(_ROUNDS + 1):
-        residuals[rows] = _residuals(system, states[rows], coordinates[rows])
-        moves = (inverse[rows] @ residuals[rows][:, :, None])[:, :, 0]
+        residuals = system.residuals_at(states[rows], coordinates[rows])
+        errors[rows] = np.max(np.abs(residuals) / scale[rows], axis=1)
+        moves = (inverse[rows] @ residuals[:, :, None])[:, :, 0]
         sizes = np.sqrt((moves * moves).sum(axis=1))
         ratios = sizes / last[rows] if turn else np.ones(len(rows))  # of the first correction nothing is known
         slow = (ratios > _CONTRACTION) & (turn > 0)
-        kept[rows] = (sizes <= _LAST) & (sizes * np.minimum(ratios, 1.0) <= _REMAINS) | slow & (sizes <= _NOISE)
+        settled = (sizes <= _LAST) & (sizes * np.minimum(ratios, 1.0) <= _REMAINS) | slow & (sizes <= _NOISE)
+        kept[rows] = settled & (errors[rows] <= _ERROR)
         moved = ~slow & (sizes <= reach[rows])
         last[rows], changed = sizes, rows[moved]
         states[changed], coordinates[changed] = system.move_each(states[changed], coordinates[changed], -moves[moved])
         rows = rows[moved & ~kept[rows]]
         if not len(rows):
             break
-    return residuals, kept
-
-
-def _residuals(system: System, states: Array, coordinates: Array) -> Array:
-    """Return f at states (m, nq), in batches of one size, (m, n)."""
-    (p,) = system.free
-    found, values = np.empty((len(states), system.n)), p.values(coordinates[:, 0])
-    first, count = 0, len(states)
-    while first < count:
-        size = _BATCH if count - first > _BATCH - _REST else _REST
-        rows = np.minimum(np.arange(first, first + size), count - 1)
-        here = system.problem.residuals_along(states[rows], system.base, p.name, values[rows])
-        found[first : first + size] = here[: count - first]
-        first += size
-    return found
+    return errors, kept

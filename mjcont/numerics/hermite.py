@@ -35,32 +35,36 @@ def hermite(nodes: Sequence[float], at: float) -> tuple[list[float], list[float]
     return values, slopes
 
 
-def weights_along(nodes: Sequence[float], at: Array) -> tuple[Array, Array, Array]:
-    """Return the weights of `lagrange`, and those of values and slopes of `hermite`, at places (m,), (m, k) each."""
-    places = np.array(nodes)
-    away = at[:, None] - places
-    shares, found = _lagrange(places - places[:, None], away)
-    square = found * found
-    slopes = away * square
-    return found, square - (2.0 * shares.sum(axis=0) - 2.0) * slopes, slopes
-
-
 def lagrange_each(nodes: Array, at: Array) -> Array:
     """Return the weights of `lagrange`, (m, k), for rows of nodes (m, k) and one place each (m,)."""
-    return _lagrange(nodes[:, None] - nodes[:, :, None], at[:, None] - nodes)[1]
+    return _each(nodes, at)[1]
 
 
-def _lagrange(gaps: Array, away: Array) -> tuple[Array, Array]:
-    """Return 1 / gaps, ones where a node meets itself, and the weights of nodes that lie `away` (m, k) from places.
+def hermite_each(nodes: Array, at: Array) -> tuple[Array, Array, Array]:
+    """Return the weights of values and slopes of `hermite` and those of `lagrange`, (m, k) each, as `lagrange_each`."""
+    shares, found = _each(nodes, at)
+    square = found * found
+    slopes = (at[:, None] - nodes) * square
+    return square - (2.0 * shares.sum(axis=1) - 2.0) * slopes, slopes, found
 
-    `gaps` [..., j, i] are node i minus node j; they are overwritten.
-    """
-    own = np.arange(away.shape[1])
-    gaps[..., own, own] = 1.0
-    shares = 1.0 / gaps
-    parts = away[:, :, None] * shares
+
+def _each(nodes: Array, at: Array) -> tuple[Array, Array]:
+    """Return 1 / (node i - node j), (m, j, i) with ones where they are the same, and the weights of `lagrange_each`."""
+    shares = nodes[:, None] - nodes[:, :, None]
+    own = np.arange(nodes.shape[1])
+    shares[:, own, own] = 1.0
+    shares = 1.0 / shares
+    parts = (at[:, None] - nodes)[:, :, None] * shares
     parts[:, own, own] = 1.0
     return shares, parts.prod(axis=1)
+
+
+def mixed(weights: Array, matrices: Array, windows: Array) -> Array:
+    """Return sums of matrices (N, a, b) at indices (m, k) with weights (m, k), (m, a, b)."""
+    out = np.zeros((len(windows), *matrices.shape[1:]))
+    for k in range(windows.shape[1]):
+        out += weights[:, k, None, None] * matrices[windows[:, k]]
+    return out
 
 
 def arc(chord: float, cosine: float) -> float:
@@ -69,8 +73,7 @@ def arc(chord: float, cosine: float) -> float:
     return chord * half / math.sin(half) if half > 1e-4 else chord
 
 
-def combine(weights: Array | Sequence[float], parts: Sequence[Array]) -> Array:
-    """Return sum_i weights[i] * parts[i]; weights are (k,), or (m, k) and give (m, *shape of a part)."""
-    stack, table = np.array(parts), np.asarray(weights)
-    out = table @ stack.reshape(len(parts), -1)
-    return out.reshape((*table.shape[:-1], *stack.shape[1:]))
+def combine(weights: Sequence[float], parts: Sequence[Array]) -> Array:
+    """Return sum_i weights[i] * parts[i]."""
+    stack = np.array(parts)
+    return (np.array(weights) @ stack.reshape(len(parts), -1)).reshape(stack.shape[1:])

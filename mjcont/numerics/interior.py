@@ -1,29 +1,30 @@
-"""Points inside a long step, corrected side by side.
+"""Points inside long steps, corrected side by side.
 
-A long step of the corrector is filled with points as close together as the settings ask for. They are interpolated
-by Hermite's polynomial through the last points with their tangents and corrected together by chord steps, with
-matrices interpolated likewise, down to the noise floor. That costs few evaluations a point, all in one batch, and
-checks the step itself: had it gone over to another branch, the points between would not settle on the polynomial.
+Long steps of the corrector are filled with points as close together as the settings ask for. They are interpolated by
+Hermite's polynomial through the steps' ends and the points before with their tangents, and corrected together by chord
+steps, with matrices interpolated likewise, down to the noise floor. That costs few evaluations a point, all in one
+batch, and checks the steps themselves: had one gone over to another branch, the points between would not settle on the
+polynomial.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from mjcont.numerics.arclength import DIP, CurvePoint, Earlier
+from mjcont.numerics.arclength import CurvePoint, Earlier, dips, pairs_may_turn_twice
 from mjcont.numerics.bordered import Factored
-from mjcont.numerics.hermite import combine, weights_along
+from mjcont.numerics.hermite import hermite_each, mixed
 from mjcont.numerics.newton import LARGEST_ERROR, length, with_row
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import System, equation_sizes
 
-# numbers of interior points, so that few sizes of batches are needed
-_COUNTS = (1, 2, 3, 4, 6, 8, 12, 16, 23, 31, 47, 63, 95)
-MOST = _COUNTS[-1]
+# points inside a step at most, and points through which they are interpolated
+MOST, _NODES = 95, 6
 # a step that is longer than asked for by less than this part needs no point inside
 _SLACK = 0.1
 _ROUNDS = 5
@@ -69,60 +70,147 @@ class Interior:
         return (_RATE / max(self.rate, 1e-6)) ** (1.0 / 3.0)
 
 
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """A step to be filled: its ends, and how many points are to lie inside."""
+
+    old: CurvePoint
+    new: CurvePoint
+    count: int
+
+
+@dataclass(slots=True)
+class _Rows:
+    """The points inside several steps side by side: arclengths (m,), states, coordinates, tangents and matrices."""
+
+    at: Array
+    states: Array
+    coordinates: Array
+    tangents: Array
+    jacs: Array
+
+
 def count_inside(length: float, angle: float, settings: Settings) -> int:
-    """Return how many points a step of some length and turning angle needs inside; more than `MOST` if too many."""
+    """Return how many points a step of some length and turning angle needs inside."""
     needed = max(length / settings.ds_max, angle / settings.angle) - 1.0
-    return next((c for c in _COUNTS if c >= needed), MOST + 1) if needed > _SLACK else 0
+    return math.ceil(needed) if needed > _SLACK else 0
 
 
-def fill(
-    system: System, old: CurvePoint, new: CurvePoint, count: int, settings: Settings, *, exact: bool
-) -> Interior | str:
-    """Return `count` points between two, or a sentence that says why the step is refused.
+def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool) -> list[Interior | str]:
+    """Return the points inside steps that follow each other, up to the first that is refused: a sentence says why.
 
     The points' tangents and matrices are interpolated, except around what `changed` tells; with `exact` they are
     taken at the interpolated states. Stiff bushes need that: what they push along turns with the mechanism, and
     interpolation errs by stiffness times the square of the angle by which it misses.
     """
     n = system.n
-    at = old.s + (new.s - old.s) * np.arange(1, count + 1) / (count + 1)
-    steps, tangents, jacs = _interpolated(new, at)
-    states, coordinates = system.move_each(new.x, new.y, steps)
+    rows = _interpolated(system, gaps)
     first: Array | None = None
     if exact:
-        first, jacs = _linearized(system, states, coordinates)
-    matrix = np.empty((count, n + 1, n + 1))
-    matrix[:, :n], matrix[:, n] = jacs, tangents
+        first, rows.jacs = _linearized(system, rows.states, rows.coordinates)
+    matrix = np.empty((len(rows.at), n + 1, n + 1))
+    matrix[:, :n], matrix[:, n] = rows.jacs, rows.tangents
     try:
         inverse = np.linalg.inv(matrix)
     except np.linalg.LinAlgError:
-        return "the curve has no single tangent within the step"
-    sizes: list[float] = []
-    while True:
-        residuals = _residuals(system, states, coordinates) if first is None else first
-        first = None
-        if _settled(sizes):
-            break
-        moves = (inverse[:, :, :n] @ residuals[:, :, None])[:, :, 0]
-        sizes.append(math.sqrt(float((moves * moves).sum(axis=1).max())))
-        if not _contracting(sizes, exact):
-            return "the points within the step do not settle between its ends"
-        states, coordinates = system.move_each(states, coordinates, -moves)
-    errors = np.max(np.abs(residuals) / equation_sizes(jacs), axis=1)
-    if not errors.max() < LARGEST_ERROR:
-        return "the points within the step stall away from the curve"
+        return ["the curve has no single tangent within the step"]
+    residuals, sizes = _corrected(system, rows, [g.count for g in gaps], inverse, first, exact)
+    errors = np.max(np.abs(residuals) / equation_sizes(rows.jacs), axis=1)
     found = inverse[:, :, -1]
-    found = found / np.sqrt((found * found).sum(axis=1))[:, None]
-    signs = np.sign(np.linalg.det(matrix)).tolist()
+    rows.tangents = found / np.sqrt((found * found).sum(axis=1))[:, None]
+    signs, done, start = np.sign(np.linalg.det(matrix)), list[Interior | str](), 0
+    for gap, history in zip(gaps, sizes, strict=False):
+        part = slice(start, start + gap.count)
+        start += gap.count
+        if not gap.count:
+            done.append(Interior([]))
+            continue
+        if not _settled(history):
+            return [*done, "the points within the step do not settle between its ends"]
+        if not errors[part].max() < LARGEST_ERROR:
+            return [*done, "the points within the step stall away from the curve"]
+        points = _points(system, rows, part, residuals, errors, signs)
+        inside = Interior(points, history[0], history[1] / max(history[0], _ROUNDING))
+        done.append(_checked(system, gap.old, gap.new, inside, settings))
+        if isinstance(done[-1], str):
+            break
+    return done
+
+
+def _interpolated(system: System, gaps: Sequence[Gap]) -> _Rows:
+    """Return the points inside steps on the polynomials through the ends of these and the points before them."""
+    ends: list[CurvePoint | Earlier] = [*gaps[0].old.past[::-1], gaps[0].old, *(g.new for g in gaps)]
+    s, behind = np.array([e.s for e in ends]), len(gaps[0].old.past)
+    chords = np.array([-g.new.past[0].step for g in gaps])
+    ways = np.array([*(e.step for e in gaps[0].old.past[::-1]), np.zeros(chords.shape[1]), *np.cumsum(chords, axis=0)])
+    tangents, jacs = np.array([e.tangent for e in ends]), np.array([e.jac for e in ends])
+    counts = np.array([g.count for g in gaps])
+    after = np.repeat(np.arange(len(gaps)), counts)
+    part = (np.arange(len(after)) - np.repeat(np.cumsum(counts) - counts, counts) + 1.0) / (counts[after] + 1.0)
+    base, width = after + behind, min(_NODES, len(s))
+    at = s[base] + part * (s[base + 1] - s[base])
+    windows = np.clip(base - (width // 2 - 1), 0, len(s) - width)[:, None] + np.arange(width)
+    values, slopes, weights = hermite_each(s[windows] - s[base][:, None], at - s[base])
+    steps = (values[:, :, None] * (ways[windows] - ways[base][:, None])).sum(axis=1)
+    steps += (slopes[:, :, None] * tangents[windows]).sum(axis=1)
+    starts = [g.old for g in gaps]
+    states, coordinates = system.move_each(
+        np.array([p.x for p in starts])[after], np.array([p.y for p in starts])[after], steps
+    )
+    turned = (weights[:, :, None] * tangents[windows]).sum(axis=1)
+    turned /= np.sqrt((turned * turned).sum(axis=1))[:, None]
+    return _Rows(at, states, coordinates, turned, mixed(weights, jacs, windows))
+
+
+def _corrected(
+    system: System, rows: _Rows, counts: Sequence[int], inverse: Array, first: Array | None, exact: bool
+) -> tuple[Array, list[list[float]]]:
+    """Correct points in place until those of each step settle, or the first step is refused.
+
+    Returns their residuals (m, n), and for each step up to a refused one the sizes of its largest corrections.
+    `first` are the residuals at the start, where they are known.
+    """
+    n, ends = system.n, np.cumsum(counts)
+    residuals = np.zeros((len(rows.at), n)) if first is None else first
+    sizes: list[list[float]] = [[] for _ in counts]
+    parts = [np.arange(e - c, e) for e, c in zip(ends, counts, strict=True)]
+    open_ = [g for g, c in enumerate(counts) if c]
+    while open_:
+        chosen = np.concatenate([parts[g] for g in open_])
+        if first is None:
+            residuals[chosen] = system.residuals_at(rows.states[chosen], rows.coordinates[chosen])
+        first = None
+        open_ = [g for g in open_ if not _settled(sizes[g])]
+        for g in list(open_):
+            part = parts[g]
+            moves = (inverse[part, :, :n] @ residuals[part][:, :, None])[:, :, 0]
+            sizes[g].append(math.sqrt(float((moves * moves).sum(axis=1).max())))
+            if not _contracting(sizes[g], exact):
+                sizes, open_ = sizes[: g + 1], [k for k in open_ if k < g]
+                sizes[g].append(math.inf)
+                break
+            rows.states[part], rows.coordinates[part] = system.move_each(
+                rows.states[part], rows.coordinates[part], -moves
+            )
+    return residuals, sizes
+
+
+def _points(
+    system: System, rows: _Rows, part: slice, residuals: Array, errors: Array, signs: Array
+) -> list[CurvePoint]:
+    """Return the points inside one step."""
+    states, coordinates = rows.states[part], rows.coordinates[part]
     every = system.locals_along(states, system.free[0].values(coordinates[:, 0]))
     points = []
-    for i, (local, s, error) in enumerate(zip(every, at.tolist(), errors.tolist(), strict=True)):
+    for i, local in enumerate(every, part.start):
         local.keep(residuals[i])
-        point = CurvePoint(states[i], coordinates[i], found[i], signs[i], local, jacs[i], s, error)
+        point = CurvePoint(
+            rows.states[i], rows.coordinates[i], rows.tangents[i], float(signs[i]), local, rows.jacs[i],
+            float(rows.at[i]), float(errors[i]),
+        )
         point.extra["interior"] = True
         points.append(point)
-    inside = Interior(points, sizes[0], sizes[1] / max(sizes[0], _ROUNDING))
-    return _checked(system, old, new, inside, settings)
+    return points
 
 
 def _linearized(system: System, states: Array, coordinates: Array) -> tuple[Array, Array]:
@@ -139,23 +227,6 @@ def _linearized(system: System, states: Array, coordinates: Array) -> tuple[Arra
     out[:, :, :-1] = jac * system.problem.state_scale
     out[:, :, -1] = par * np.array([p.slope(u) for u in coordinates[:, 0].tolist()])[:, None]
     return f, out
-
-
-def _residuals(system: System, states: Array, coordinates: Array) -> Array:
-    (p,) = system.free
-    return system.problem.residuals_along(states, system.base, p.name, p.values(coordinates[:, 0]))
-
-
-def _interpolated(new: CurvePoint, at: Array) -> tuple[Array, Array, Array]:
-    """Return steps from `new` (m, n + 1), unit tangents and matrices (m, n, n + 1) at arclengths (m,) before it."""
-    nodes = [0.0, *(e.s - new.s for e in new.past)]
-    there = at - new.s
-    weights, values, slopes = weights_along(nodes, there)
-    tangents = [new.tangent, *(e.tangent for e in new.past)]
-    steps = slopes @ np.array(tangents) + values[:, 1:] @ np.array([e.step for e in new.past])
-    turned = combine(weights, tangents)
-    turned /= np.sqrt((turned * turned).sum(axis=1))[:, None]
-    return steps, turned, combine(weights, [new.jac, *(e.jac for e in new.past)])
 
 
 def _settled(sizes: list[float]) -> bool:
@@ -187,7 +258,7 @@ def _checked(system: System, old: CurvePoint, new: CurvePoint, inside: Interior,
     unsure = min(max(5.0 * inside.rate, _UNSURE), _TURNING)
     own = np.zeros(len(inside.points), dtype=bool)
     while True:
-        changes, twice = _changes(along, signs), _may_turn_twice(along, values, s)
+        changes, twice = _changes(along, signs), pairs_may_turn_twice(along, values, s)
         pairs = changes | twice
         asked = ((np.abs(along[1:-1]) < unsure) | pairs[1:] | pairs[:-1]) & ~own
         if not asked.any():
@@ -196,7 +267,7 @@ def _checked(system: System, old: CurvePoint, new: CurvePoint, inside: Interior,
             _refine(system, every[i])
             along[i], signs[i] = every[i].tangent[system.n], every[i].sign
         own |= asked
-    if twice.any():
+    if twice.any() or dips(along):
         return "the parameter may turn twice between two points"
     for i in np.flatnonzero(changes).tolist():
         a, b = every[i], every[i + 1]
@@ -209,15 +280,6 @@ def _checked(system: System, old: CurvePoint, new: CurvePoint, inside: Interior,
 def _changes(along: Array, signs: Array) -> Array:
     """Return for each pair of points whether the parameter turns between them or the orientation changes."""
     return (along[1:] * along[:-1] <= 0.0) | (signs[1:] * signs[:-1] <= 0.0)
-
-
-def _may_turn_twice(slopes: Array, values: Array, s: Array) -> Array:
-    """Return `may_turn_twice` for each pair of points, of a function with given slopes and values at arclengths s."""
-    a, b, mean = slopes[:-1], slopes[1:], np.diff(values) / np.diff(s)
-    p, q = 3.0 * mean - 2.0 * a - b, 3.0 * (a + b - 2.0 * mean)
-    t = -p / np.where(q != 0.0, q, np.inf)
-    least = (a + p * t) * np.sign(a)
-    return (a * b > 0.0) & (t > 0.0) & (t < 1.0) & (least < DIP * np.minimum(np.abs(a), np.abs(b)))
 
 
 def _refine(system: System, point: CurvePoint) -> None:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 from mjcont.numerics.arclength import CurvePoint, next_step
-from mjcont.numerics.interior import MOST, Interior, count_inside, fill
+from mjcont.numerics.interior import MOST, Gap, Interior, count_inside, fill
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import System
 
@@ -18,6 +18,8 @@ _SHORTER, _LONGER, _GROWTH = 0.7, 1.2, 3.0
 # interpolated matrices are taken where they allow steps of so many distances of points; a limit found once is raised
 # from step to step
 _WORTH, _LONGER_INTERPOLATED = 0.6, 1.1
+# unknowns up to which the walk runs ahead
+_SMALL = 40
 
 
 @dataclass(slots=True)
@@ -42,28 +44,39 @@ class LongSteps:
         angle, angle_max = max(_ANGLE, given.angle), max(_ANGLE_MAX, given.angle_max)
         self.far = replace(given, ds_max=reach, angle=angle, angle_max=angle_max)
 
+    def begin(self) -> None:
+        """Forget what another curve allowed."""
+        self._longest = self._interpolated = _REACH
+
     def limits(self, h: float) -> Settings:
         """Return the settings that hold for a step: a short one is as the user asked for."""
         return self.far if h > self.settings.ds_max else self.settings
 
-    def inside(self, old: CurvePoint, new: CurvePoint) -> Interior | str:
-        """Return the points inside a step, or a sentence that says why it is refused."""
-        length, exact = new.s - old.s, self._exact
-        count = count_inside(length, new.angle, self.settings)
-        if count == 0:
-            return Interior([])
-        if count > MOST:
-            return "the step needs too many points inside"
-        found = fill(self.system, old, new, count, self.settings, exact=exact)
-        if exact:
+    def runs_ahead(self, h: float) -> bool:
+        """Whether a step is one of several that are taken before they are filled: that pays where they cost little."""
+        return h > self.settings.ds_max and not self._exact and self.system.n <= _SMALL
+
+    def inside(self, steps: Sequence[tuple[CurvePoint, CurvePoint]]) -> list[Interior | str]:
+        """Return the points inside steps that follow each other, up to the first refused: a sentence says why."""
+        gaps = [Gap(a, b, count_inside(b.s - a.s, b.angle, self.settings)) for a, b in steps]
+        fit = list(itertools.takewhile(lambda g: g.count <= MOST, gaps))
+        if not fit:
+            return ["the step needs too many points inside"]
+        if not any(g.count for g in fit):
+            return [Interior([]) for _ in fit]
+        if self._exact:
             self._interpolated *= _LONGER_INTERPOLATED
-        elif isinstance(found, str):
-            self._interpolated = _SHORTER * length
-            if self._exact:
-                found = fill(self.system, old, new, count, self.settings, exact=True)
-        else:
-            self._interpolated = length * found.growth_of_matrices()
-        return found
+            return fill(self.system, fit, self.settings, exact=True)
+        found = fill(self.system, fit, self.settings, exact=False)
+        self._interpolated = min(self._limit(g, inside) for g, inside in zip(fit, found, strict=False) if g.count)
+        again = isinstance(found[0], str) and self._exact
+        return fill(self.system, fit[:1], self.settings, exact=True) if again else found
+
+    @staticmethod
+    def _limit(gap: Gap, inside: Interior | str) -> float:
+        """Return how long steps may be for interpolated matrices, as one step tells."""
+        span = gap.new.s - gap.old.s
+        return _SHORTER * span if isinstance(inside, str) else span * inside.growth_of_matrices()
 
     @property
     def _exact(self) -> bool:

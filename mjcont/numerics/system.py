@@ -24,6 +24,7 @@ _GRADIENT_STEP = 1e-3
 # a row of J may vanish at a special point: it must not be blown up on the way there
 ROW_GUARD = 1e-3
 _VANISHES = 1e-10
+_BATCHES = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
 
 
 @dataclass(frozen=True, slots=True)
@@ -231,6 +232,19 @@ class System:
             merged = self.base.copy()
             merged[name] = value
             found.append(Local(self.problem, x, merged, self.names, self.accurate, self.spans))
+        return found
+
+    def residuals_at(self, states: Array, coordinates: Array) -> Array:
+        """Return f at states (m, nq) of a system with one free parameter, with its coordinates (m, k), shape (m, n)."""
+        (p,) = self.free
+        found, values = np.empty((len(states), self.n)), p.values(coordinates[:, 0])
+        first, count = 0, len(states)
+        while first < count:  # in batches of few sizes, so that they are kept
+            size = next((s for s in _BATCHES if s >= count - first), _BATCHES[-1])
+            rows = np.minimum(np.arange(first, first + size), count - 1)
+            here = self.problem.residuals_along(states[rows], self.base, p.name, values[rows])
+            found[first : first + size] = here[: count - first]
+            first += size
         return found
 
     def _aux(self, y: Array) -> list[Array]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import itertools
 import math
 import time
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
-from enum import Enum
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,7 @@ from mjcont.numerics.newton import length
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.stability import tell
+from mjcont.numerics.steps import End, Leap, Status, Step
 from mjcont.numerics.system import System
 
 # below this step a pair of folds is not looked for between two points
@@ -28,32 +29,10 @@ _SMALL_FOLDS = 1e-5
 # a curve that ends on the bound where it is already adds no second point there
 _SAME_POINT = 1e-9
 _SAME_LOCATED = 1e-7
+# long steps that are filled together
+_AHEAD = 6
 # along a locus, whose matrices are not extrapolated, contraction that tells that they turn with the mechanism
 _STALE = 0.25
-
-
-class Status(Enum):
-    """Why a curve ends."""
-
-    AT_BOUND = "at bound"
-    CLOSED = "closed"
-    STEP_TOO_SMALL = "step too small"
-    MAX_POINTS = "max points"
-    MAX_ARCLENGTH = "max arclength"
-    MAX_TIME = "max time"
-    RUNS_OFF = "runs off"
-    STOPPED = "stopped"
-    AT_SPECIAL_POINT = "at special point"
-    INTERRUPTED = "interrupted"
-    NO_START = "no start"
-
-
-@dataclass(frozen=True, slots=True)
-class End:
-    """The end of a curve: a status and a sentence."""
-
-    status: Status
-    message: str
 
 
 @dataclass(slots=True)
@@ -63,22 +42,6 @@ class Trace:
     points: list[CurvePoint] = field(default_factory=list)
     special: list[Located] = field(default_factory=list)
     end: End = field(default_factory=lambda: End(Status.STOPPED, "not started"))
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """A step of the walk.
-
-    Attributes
-    ----------
-    items : points and special points in order, the step's end last.
-    next : length of the step after it.
-    ending : the end of the curve, if a bound is met at the step's end.
-    """
-
-    items: list[CurvePoint | Located]
-    next: float
-    ending: End | None = None
 
 
 Stop = Callable[[CurvePoint], str | None]
@@ -104,13 +67,17 @@ class Walker:
     long: LongSteps | None = None
     _fresh: bool = field(default=False, init=False)
     _turns: Array | None = field(default=None, init=False)
+    _leaps: list[Leap] = field(default_factory=list, init=False)
 
     def walk(self, start: CurvePoint) -> Iterator[CurvePoint | Located | End]:
         """Yield the curve's points after `start`, special points before the point that follows them, and the end."""
         settings, began = self.settings, time.monotonic()
         point, h, count = start, settings.ds, 1
+        steps, self._leaps = deque[Step | End](), []
         if start.past:
             h = max(h, -0.5 * start.past[-1].s)
+        elif self.long is not None:
+            self.long.begin()
         for detector in self.detectors:
             detector.changed(point, point)
         last: dict[str, Located] = {}
@@ -121,7 +88,9 @@ class Walker:
                 yield End(Status.RUNS_OFF, f"a state coordinate exceeds {largest:g} times its scale (max_size)")
                 return
             limit = self._limit(point, count, began)
-            step = limit or self._step(point, h)
+            if not (limit or steps):
+                steps.extend(self._steps(point, h))
+            step = limit or steps.popleft()
             if isinstance(step, End):
                 yield step
                 return
@@ -179,6 +148,46 @@ class Walker:
         point.extra["outside"] = True
         return End(Status.STOPPED, message)
 
+    def _steps(self, point: CurvePoint, h: float) -> list[Step | End]:
+        """Return the next step or steps, or the end of a curve that cannot be followed.
+
+        Long steps are taken several at a time and filled together. The last one waits for the next: what lies inside a
+        step is known better with points on both sides.
+        """
+        if self.long is None or not (self._leaps or self.long.runs_ahead(h)):
+            return [self._step(point, h)]
+        shorter = self._run_ahead(point, h)
+        leaps, self._leaps = self._leaps, []
+        if not leaps:
+            return [self._step(point, shorter)]
+        if len(leaps) > 1 and leaps[-1].ending is None and not shorter:
+            self._leaps = [leaps.pop()]
+        found: list[Step | End] = []
+        for leap, inside in zip(leaps, self.long.inside([(s.old, s.new) for s in leaps]), strict=False):
+            step = self._completed(leap, inside)
+            if not isinstance(step, Step):
+                self.long.refused(leap.h)
+                self._leaps = []
+                return [*found, self._step(leap.old, step[1])]
+            found.append(replace(step, next=shorter) if shorter and leap is leaps[-1] else step)
+        return found
+
+    def _run_ahead(self, point: CurvePoint, h: float) -> float:
+        """Add long steps to those that wait to be filled; return what length to try where one is refused, else 0."""
+        assert self.long is not None
+        if self._leaps:
+            point, h = self._leaps[-1].new, self.long.next(self._leaps[-1].h, self._leaps[-1].new, Interior([]))
+        while len(self._leaps) <= _AHEAD and self.long.runs_ahead(h):
+            leap = self._leap(point, h)
+            if not isinstance(leap, Leap):
+                self.long.refused(h)
+                return leap[1]
+            self._leaps.append(leap)
+            if leap.ending is not None:
+                break
+            point, h = leap.new, self.long.next(h, leap.new, Interior([]))
+        return 0.0
+
     def _step(self, point: CurvePoint, h: float) -> Step | End:
         """Return the next step, or the end of a curve that cannot be followed."""
         while True:
@@ -198,6 +207,14 @@ class Walker:
 
     def _try(self, point: CurvePoint, h: float) -> Step | tuple[str, float]:
         """Return the step of length h with what lies within, or why it is refused and the length to try instead."""
+        leap = self._leap(point, h)
+        if not isinstance(leap, Leap):
+            return leap
+        inside = self.long.inside([(point, leap.new)])[0] if self.long is not None else Interior([])
+        return self._completed(leap, inside)
+
+    def _leap(self, point: CurvePoint, h: float) -> Leap | tuple[str, float]:
+        """Return a step of length h, or why it is refused and the length to try instead."""
         settings = self.long.limits(h) if self.long is not None else self.settings
         far = h > self.settings.ds_max
         new = advance(self.system, point, h, settings, fresh=self._fresh and not far)
@@ -207,30 +224,34 @@ class Walker:
             shorter = 0.4 * h if self._fresh or far else h
             self._fresh |= not far
             return new, shorter
-        ending = None
         outside = self._outside(new)
-        if outside is not None:
-            landed = land(self.system, point, new, *outside[:2], settings)
-            if isinstance(landed, str):
-                return landed, 0.4 * h
-            if landed.s - point.s > 3.0 * h or landed.angle > settings.angle_max:
-                return "the bound was not met along the curve", 0.4 * h
-            new, ending = landed, End(Status.AT_BOUND, outside[2])
-        inside = self.long.inside(point, new) if self.long is not None else Interior([])
+        if outside is None:
+            return Leap(point, new, h, None)
+        landed = land(self.system, point, new, *outside[:2], settings)
+        if isinstance(landed, str):
+            return landed, 0.4 * h
+        if landed.s - point.s > 3.0 * h or landed.angle > settings.angle_max:
+            return "the bound was not met along the curve", 0.4 * h
+        return Leap(point, landed, h, End(Status.AT_BOUND, outside[2]))
+
+    def _completed(self, leap: Leap, inside: Interior | str) -> Step | tuple[str, float]:
+        """Return a step with what lies within, or why it is refused and the length to try instead."""
+        old, new, h = leap.old, leap.new, leap.h
         if isinstance(inside, str):
             return inside, 0.5 * h
         if not inside.points and not self.system.conditions and h > _SMALL_FOLDS and (
-            may_turn_twice(self.system, point, new, 0)
+            may_turn_twice(self.system, old, new, 0)
         ):
             return "the parameter may turn twice", 0.4 * h
         try:
-            items = self._items(point, inside, new)
+            items = self._items(old, inside, new)
         except Retry as retry:
             return str(retry), 0.4 * h
         stale = bool(self.system.conditions) and new.contraction > _STALE
-        self._fresh |= not far and by_contraction(new) < 1.0 and (new.iterations > 4 or stale)
-        after = next_step(h, new, settings) if self.long is None else self.long.next(h, new, inside)
-        return Step(items, after, ending)
+        short = h <= self.settings.ds_max
+        self._fresh |= short and by_contraction(new) < 1.0 and (new.iterations > 4 or stale)
+        after = next_step(h, new, self.settings) if self.long is None else self.long.next(h, new, inside)
+        return Step(items, after, leap.ending)
 
     def _items(self, old: CurvePoint, inside: Interior, new: CurvePoint) -> list[CurvePoint | Located]:
         """Return the points of a step after the first, with the special points between them."""
