@@ -22,7 +22,7 @@ _CONSTANTS = """NDIM={n}, IPS=1, IRS=0, ILP=1, ICP=[1, 2], NTST=5, NCOL=4, IAD=3
 NMX={most}, NPR={most}, MXBF=0, IID=0, ITMX=9, ITNW=7, NWTN=3, JAC=0, EPSL=1e-7, EPSU=1e-7, EPSS=1e-5,
 DS={ds!r}, DSMIN=1e-8, DSMAX={ds_max!r}, IADS=1, THL={{1: {weight!r}}}, UZSTOP={{1: [{low!r}, {high!r}]}}
 """
-_MOST = 20000
+_MOST = 40000
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,10 +25,11 @@ _WEIGHTS = {
     "ab": 1.0,
 }
 _DS_MAX = 0.1
-# how fine the diagrams are that are compared, the default among them, and that against which chords are measured
-_CHORDS, _REFERENCE = (3e-5, 3e-6, 3e-7), 1e-8
+# how fine the diagrams are that are compared, the default among them, and how much finer that is against which their
+# chords are measured
+_CHORDS, _FINER = (3e-5, 3e-6, 3e-7), 30.0
 # the steps tried for AUTO, from the largest on
-_STEPS = np.geomspace(0.5, 0.0005, 121)
+_STEPS = np.geomspace(0.5, 0.00005, 161).tolist()
 
 
 def mechanism_points(case: cases.Case, repeats: int, auto: str | None) -> dict[str, Any]:
@@ -52,13 +53,12 @@ def mechanism_points(case: cases.Case, repeats: int, auto: str | None) -> dict[s
 
 def same_accuracy(case: cases.Case, repeats: int, chord: float) -> dict[str, Any]:
     """Compare whole diagrams when AUTO's steps are as large as its chord error allows: that of mjcont's diagram."""
-    branch = case.run(chord=chord)
-    fine = case.run(chord=_REFERENCE)
+    branch, fine = case.run(chord=chord), case.run(chord=chord / _FINER)
     spans = np.array([case.bounds[1] - case.bounds[0], np.ptp(fine[case.watched])])
     reference = np.column_stack([fine[case.parameter], fine[case.watched]])
     ours = chord_error(np.column_stack([branch[case.parameter], branch[case.watched]]), reference, spans)
     for ds_max in _STEPS:
-        peer = auto_peer.AutoPeer(case, _WEIGHTS[case.name], float(ds_max))
+        peer = auto_peer.AutoPeer(case, _WEIGHTS[case.name], ds_max)
         run = peer.run()
         theirs = chord_error(run.curve, reference, spans)
         if theirs <= ours:
@@ -70,7 +70,7 @@ def same_accuracy(case: cases.Case, repeats: int, chord: float) -> dict[str, Any
         **{name: 1e3 * value for name, value in times.items()},
         "chord error": {"mjcont": ours, "AUTO": theirs},
         "points": {"mjcont": len(branch), "AUTO": run.points},
-        "AUTO ds_max": float(ds_max),
+        "AUTO ds_max": ds_max,
     }
 
 

@@ -62,4 +62,4 @@ def test_a_function_that_turns_once_is_no_case_of_two():
      ([1.0, 0.01, 0.001], False), ([1.0, 0.9], False)],
 )
 def test_a_slope_that_dips_far_below_its_neighbours_is_seen(slopes, expected):
-    assert dips(np.array(slopes)) is expected
+    assert dips(np.array(slopes)).any() == expected

@@ -243,7 +243,7 @@ def may_turn_twice(system: System, old: CurvePoint, new: CurvePoint, index: int)
     slopes = [float(old.past[0].tangent[i]), a, b] if old.past else [a, b]
     values = np.array([0.0, float(system.difference(new.x, new.y, old.x, old.y)[i])])
     twice = pairs_may_turn_twice(np.array([a, b]), values, np.array([old.s, new.s]))
-    return bool(twice[0]) or dips(np.array(slopes))
+    return bool(twice[0] or dips(np.array(slopes)).any())
 
 
 def pairs_may_turn_twice(slopes: Array, values: Array, s: Array) -> Array:
@@ -256,10 +256,10 @@ def pairs_may_turn_twice(slopes: Array, values: Array, s: Array) -> Array:
     return (a * b > 0.0) & (t > 0.0) & (t < 1.0) & ((a + p * t) * np.sign(a) < floor)
 
 
-def dips(slopes: Array) -> bool:
-    """Whether a slope is far below those on both sides."""
+def dips(slopes: Array) -> Array:
+    """Return for each slope but the first and the last whether it is far below those on both sides."""
     size, same = np.abs(slopes), slopes[1:] * slopes[:-1] > 0.0
-    return bool((same[1:] & same[:-1] & (size[1:-1] < _FAR_BELOW * np.minimum(size[:-2], size[2:]))).any())
+    return same[1:] & same[:-1] & (size[1:-1] < _FAR_BELOW * np.minimum(size[:-2], size[2:]))
 
 
 def turning_fraction(system: System, old: CurvePoint, new: CurvePoint, index: int) -> float:

@@ -116,25 +116,27 @@ def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool
         return ["the curve has no single tangent within the step"]
     residuals, sizes = _corrected(system, rows, [g.count for g in gaps], inverse, first, exact)
     errors = np.max(np.abs(residuals) / equation_sizes(rows.jacs), axis=1)
-    found = inverse[:, :, -1]
-    rows.tangents = found / np.sqrt((found * found).sum(axis=1))[:, None]
-    signs, done, start = np.sign(np.linalg.det(matrix)), list[Interior | str](), 0
+    columns = inverse[:, :, -1]
+    rows.tangents = columns / np.sqrt((columns * columns).sum(axis=1))[:, None]
+    signs, found, start = np.sign(np.linalg.det(matrix)), list[Interior](), 0
+    refused: list[str] = []
     for gap, history in zip(gaps, sizes, strict=False):
         part = slice(start, start + gap.count)
         start += gap.count
         if not gap.count:
-            done.append(Interior([]))
-            continue
-        if not _settled(history):
-            return [*done, "the points within the step do not settle between its ends"]
-        if not errors[part].max() < LARGEST_ERROR:
-            return [*done, "the points within the step stall away from the curve"]
-        points = _points(system, rows, part, residuals, errors, signs)
-        inside = Interior(points, history[0], history[1] / max(history[0], _ROUNDING))
-        done.append(_checked(system, gap.old, gap.new, inside, settings))
-        if isinstance(done[-1], str):
+            found.append(Interior([]))
+        elif not _settled(history):
+            refused.append("the points within the step do not settle between its ends")
+        elif not errors[part].max() < LARGEST_ERROR:
+            refused.append("the points within the step stall away from the curve")
+        else:
+            points = _points(system, rows, part, residuals, errors, signs)
+            found.append(Interior(points, history[0], history[1] / max(history[0], _ROUNDING)))
+        if refused:
             break
-    return done
+    checked = _checked(system, gaps[: len(found)], found, settings)
+    complete = len(checked) == len(found) and not any(isinstance(c, str) for c in checked)
+    return [*checked, *refused] if complete else checked
 
 
 def _interpolated(system: System, gaps: Sequence[Gap]) -> _Rows:
@@ -181,17 +183,21 @@ def _corrected(
             residuals[chosen] = system.residuals_at(rows.states[chosen], rows.coordinates[chosen])
         first = None
         open_ = [g for g in open_ if not _settled(sizes[g])]
-        for g in list(open_):
-            part = parts[g]
-            moves = (inverse[part, :, :n] @ residuals[part][:, :, None])[:, :, 0]
-            sizes[g].append(math.sqrt(float((moves * moves).sum(axis=1).max())))
+        if not open_:
+            break
+        chosen = np.concatenate([parts[g] for g in open_])
+        moves = (inverse[chosen, :, :n] @ residuals[chosen][:, :, None])[:, :, 0]
+        starts = np.cumsum([0, *(counts[g] for g in open_[:-1])])
+        largest = np.sqrt(np.maximum.reduceat((moves * moves).sum(axis=1), starts))
+        for g, size in zip(open_, largest.tolist(), strict=True):
+            sizes[g].append(size)
             if not _contracting(sizes[g], exact):
-                sizes, open_ = sizes[: g + 1], [k for k in open_ if k < g]
                 sizes[g].append(math.inf)
+                sizes, open_ = sizes[: g + 1], [k for k in open_ if k < g]
                 break
-            rows.states[part], rows.coordinates[part] = system.move_each(
-                rows.states[part], rows.coordinates[part], -moves
-            )
+        rows.states[chosen], rows.coordinates[chosen] = system.move_each(
+            rows.states[chosen], rows.coordinates[chosen], -moves
+        )
     return residuals, sizes
 
 
@@ -246,35 +252,60 @@ def _contracting(sizes: list[float], exact: bool) -> bool:
     return sizes[-1] <= sizes[-2] * (_CONTRACTION if exact or len(sizes) > 2 else _INTERPOLATED)
 
 
-def _checked(system: System, old: CurvePoint, new: CurvePoint, inside: Interior, settings: Settings) -> Interior | str:
-    """Return the interior with changes told, or why the step is refused."""
-    every = [old, *inside.points, new]
+def _checked(
+    system: System, gaps: Sequence[Gap], insides: Sequence[Interior], settings: Settings
+) -> list[Interior | str]:
+    """Return the insides with changes told, up to the first step that is refused: a sentence says why."""
+    if not gaps:
+        return []
+    every, ends, unsure = [gaps[0].old], [0], [0.0]
+    for gap, inside in zip(gaps, insides, strict=True):
+        every += [*inside.points, gap.new]
+        ends.append(len(every) - 1)
+        unsure += [min(max(5.0 * inside.rate, _UNSURE), _TURNING)] * len(inside.points) + [0.0]
     tangents = np.array([p.tangent for p in every])
-    cosines = (tangents[1:] * tangents[:-1]).sum(axis=1)
-    if cosines.min() < math.cos(settings.angle_max):
-        return f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg between points"
-    along = tangents[:, system.n]
-    signs, values, s = np.array([(p.sign, p.y[0], p.s) for p in every]).T
-    unsure = min(max(5.0 * inside.rate, _UNSURE), _TURNING)
-    own = np.zeros(len(inside.points), dtype=bool)
+    turned = (tangents[1:] * tangents[:-1]).sum(axis=1) < math.cos(settings.angle_max)
+    changes, twice = _settled_changes(system, every, tangents[:, system.n].copy(), np.array(unsure))
+    done: list[Interior | str] = []
+    for inside, first, last in zip(insides, ends, ends[1:], strict=False):
+        if inside.points and turned[first:last].any():
+            return [*done, f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg between points"]
+        if twice[first:last].any():
+            return [*done, "the parameter may turn twice between two points"]
+        for i in np.flatnonzero(changes[first:last]).tolist() if inside.points else ():
+            a, b = every[first + i], every[first + i + 1]
+            inside.changed.append(i)
+            if first + i + 1 != last:  # what is looked for between these two starts from a
+                b.past = (Earlier(a.s, system.difference(a.x, a.y, b.x, b.y), a.tangent, a.jac),)
+        done.append(inside)
+    return done
+
+
+def _settled_changes(
+    system: System, points: Sequence[CurvePoint], along: Array, unsure: Array
+) -> tuple[Array, Array]:
+    """Return for each pair of points whether the curve changes between them, and whether its parameter may turn twice.
+
+    `along` (m,) are the components of the tangents along the parameter. Interpolated ones below `unsure` (m,), zero at
+    points with derivatives of their own, and those that decide a change, are replaced by the points' own.
+    """
+    signs, values, s = np.array([(p.sign, p.y[0], p.s) for p in points]).T
+    own = unsure == 0.0
     while True:
         changes, twice = _changes(along, signs), pairs_may_turn_twice(along, values, s)
         pairs = changes | twice
-        asked = ((np.abs(along[1:-1]) < unsure) | pairs[1:] | pairs[:-1]) & ~own
+        asked = np.abs(along) < unsure
+        asked[1:] |= pairs
+        asked[:-1] |= pairs
+        asked &= ~own
         if not asked.any():
             break
-        for i in (np.flatnonzero(asked) + 1).tolist():
-            _refine(system, every[i])
-            along[i], signs[i] = every[i].tangent[system.n], every[i].sign
+        for i in np.flatnonzero(asked).tolist():
+            _refine(system, points[i])
+            along[i], signs[i] = points[i].tangent[system.n], points[i].sign
         own |= asked
-    if twice.any() or dips(along):
-        return "the parameter may turn twice between two points"
-    for i in np.flatnonzero(changes).tolist():
-        a, b = every[i], every[i + 1]
-        inside.changed.append(i)
-        if b is not new:  # what is looked for between these two starts from a
-            b.past = (Earlier(a.s, system.difference(a.x, a.y, b.x, b.y), a.tangent, a.jac),)
-    return inside
+    twice[1:] |= dips(along)
+    return changes, twice
 
 
 def _changes(along: Array, signs: Array) -> Array:
