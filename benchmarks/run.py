@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -39,6 +40,7 @@ def mechanism_points(case: cases.Case, repeats: int, auto: str | None) -> dict[s
     runs: dict[str, Callable[[], float]] = {
         "mjcont": lambda: per_point(case),
         "all eigenvalues": lambda: per_point(case, eigenvalues=True),
+        "no rows between": lambda: per_point(case, chord=math.inf),
         "floor": floor.per_point,
     }
     if auto is None and case.name in _WEIGHTS:
@@ -51,13 +53,23 @@ def mechanism_points(case: cases.Case, repeats: int, auto: str | None) -> dict[s
     return {**found, "points": len(branch), "evaluations": evaluations, "split": split(case)}
 
 
-def same_accuracy(case: cases.Case, repeats: int, chord: float) -> dict[str, Any]:
+def diagrams(case: cases.Case, repeats: int) -> dict[str, Any]:
+    """Compare whole diagrams of a case from coarse to fine; AUTO's steps only become smaller."""
+    found: dict[str, Any] = {}
+    largest = math.inf
+    for chord in _CHORDS:
+        found[f"{case.name}, {chord:.0e}"] = row = same_accuracy(case, repeats, chord, largest)
+        largest = row["AUTO ds_max"]
+    return found
+
+
+def same_accuracy(case: cases.Case, repeats: int, chord: float, largest: float = math.inf) -> dict[str, Any]:
     """Compare whole diagrams when AUTO's steps are as large as its chord error allows: that of mjcont's diagram."""
     branch, fine = case.run(chord=chord), case.run(chord=chord / _FINER)
     spans = np.array([case.bounds[1] - case.bounds[0], np.ptp(fine[case.watched])])
     reference = np.column_stack([fine[case.parameter], fine[case.watched]])
     ours = chord_error(np.column_stack([branch[case.parameter], branch[case.watched]]), reference, spans)
-    for ds_max in _STEPS:
+    for ds_max in (s for s in _STEPS if s <= largest):
         peer = auto_peer.AutoPeer(case, _WEIGHTS[case.name], ds_max)
         run = peer.run()
         theirs = chord_error(run.curve, reference, spans)
@@ -91,9 +103,7 @@ def main() -> None:
     sizes = [n for n in links if n <= 80]
     result["growth"] = growth(sizes, [result["chain [us]"][n]["mjcont"] for n in sizes])
     if auto is None:
-        result["diagram [ms]"] = {
-            f"{c.name}, {chord:.0e}": same_accuracy(c, given.repeats, chord) for c in mechanisms for chord in _CHORDS
-        }
+        result["diagram [ms]"] = {k: v for c in mechanisms for k, v in diagrams(c, given.repeats).items()}
     if not given.quick:
         result["memory [MB]"] = jobs.memory(80)
         result["jobs [s]"] = medians(
@@ -124,15 +134,15 @@ def table(result: dict[str, Any]) -> str:
     """Return the figures as text."""
     lines = [", ".join(f"{k} {v}" for k, v in result["machine"].items()), *result["skipped"], ""]
     head = f"{'a point [us]':<18}{'mjcont':>9}{'floor':>9}{'ratio':>7}{'AUTO':>9}{'ratio':>7}"
-    lines.append(f"{head}   mujoco/algebra/python   all eigenvalues")
+    lines.append(f"{head}   mujoco/algebra/python   all eigenvalues   no rows between")
     named = [*result["points [us]"].items(), *((f"chain {n}", row) for n, row in result["chain [us]"].items())]
     for name, row in named:
         ours, cells = row["mjcont"], []
         for peer in ("floor", "AUTO"):
             cells.append(f"{row[peer]:9.1f}{ours / row[peer]:7.2f}" if peer in row else f"{'-':>9}{'-':>7}")
         shares = "/".join(f"{100 * v:.0f} %" for v in row.get("split", {}).values())
-        every = f"{row['all eigenvalues']:18.1f}" if "all eigenvalues" in row else ""
-        lines.append(f"{name:<18}{ours:9.1f}{''.join(cells)}   {shares:<21}{every}")
+        every = "".join(f"{row[k]:18.1f}" for k in ("all eigenvalues", "no rows between") if k in row)
+        lines.append(f"{name:<18}{ours:9.1f}{''.join(cells)}   {shares:<21}{every}".rstrip())
         lines += [f"{'':<18}{peer}: {row[peer]:.1f}" for peer in ("root", "PyCont-Lite") if peer in row]
     lines.append(f"the chain's cost per point grows as nv^{result['growth']:.2f}")
     if "diagram [ms]" in result:

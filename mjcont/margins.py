@@ -20,6 +20,7 @@ from mjcont.energy import potential_energy, total_energy
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.numerics.creep import creep, rates
 from mjcont.numerics.problem import Array, Values
+from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Local
 from mjcont.pathresults import sliced
 from mjcont.search import find_equilibria
@@ -29,6 +30,8 @@ _ASIDE = 1e-2
 _SAME = 1e-4
 _EQUAL = 1e-9
 _STARTS = 100
+# distance of rests along a branch, in its largest steps
+_APART = 0.25
 # so many of the lowest passes found by a search are followed
 _PASSES = 2
 
@@ -68,7 +71,7 @@ class BarrierCurve:
     ----------
     name, unit : the parameter.
     values, energy : (m,) its values, and the barriers in J, in order along the branch.
-    rows : (m,) rows of the branch that they belong to: the stable ones and the folds.
+    rows : (m,) rows of the branch that they belong to: stable ones some way apart, and the folds.
     barriers : one a value.
     """
 
@@ -151,6 +154,7 @@ def energy_barrier(point: Point, saddles: Saddles | None = None) -> Barrier:
 def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: bool = True) -> BarrierCurve:
     """Return the energy barriers along the stable points of a branch.
 
+    Rows closer to the last than a quarter of the branch's largest step are passed over, but for folds and the last one.
     Passes are taken from the branch itself, from `saddles`, and from a search over all equilibria at the ends and in
     the middle of the range, whose passes are followed from there. A pass that is on none of these is missed.
 
@@ -166,12 +170,30 @@ def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: boo
     rows = [i for i in range(len(branch)) if branch.stability[i] == "stable" or labels[i].startswith("LP")]
     if not any(branch.stability[i] == "stable" for i in rows):
         raise MjcontError("nothing on the branch is stable")
+    rows = _spaced(branch, rows, labels)
     rests = [branch.row(i) for i in rows]
     folds = [labels[i].startswith("LP") for i in rows]
     barriers = _along(branch, rests, folds, _listed(saddles), search)
     energy = np.array([b.energy for b in barriers])
     values = np.array([p[name] for p in rests])
     return BarrierCurve(name, branch.unit(name), values, energy, np.array(rows), tuple(barriers))
+
+
+def _spaced(branch: Branch, rows: Sequence[int], labels: Sequence[str]) -> list[int]:
+    """Return those of some rows that lie some way apart along the branch, with folds and the last one."""
+    problem: Any = branch.problem
+    if problem is None:
+        return list(rows)
+    ((name, (low, high)),) = branch.free.items()
+    steps = problem.difference_each(branch.states[1:], branch.states[:-1]) / problem.state_scale
+    lengths = np.sqrt((steps**2).sum(axis=1) + (np.diff(branch[name]) / (high - low)) ** 2)
+    s = np.concatenate([[0.0], np.cumsum(lengths)])
+    apart = _APART * branch.settings.get("ds_max", Settings().ds_max)
+    kept = [rows[0]]
+    for i in rows[1:]:
+        if s[i] - s[kept[-1]] >= apart or labels[i].startswith("LP") or i == rows[-1]:
+            kept.append(i)
+    return kept
 
 
 def barrier_map(point: Point, grid: Mapping[str, Any], *, search: bool = True) -> BarrierMap:

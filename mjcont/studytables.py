@@ -198,7 +198,7 @@ _DIRECTION = Key(k.direction, "`1` or `-1`: only that way, in which the paramete
                  otherwise="both")
 _ZEROS = Key(k.zeros, "Columns and values whose passing is labelled UZ, such as `{ theta_1 = \"10 deg\" }`.", {},
              otherwise="none")
-_SETTINGS = Key(k.settings, "Fields of `mjcont.Settings`: `ds`, `ds_max`, `angle`, `max_points`, ...", {},
+_SETTINGS = Key(k.settings, "Fields of `mjcont.Settings`: `ds`, `ds_max`, `angle`, `chord`, `max_points`, ...", {},
                 otherwise="its defaults")
 _POINT = Key(r.reference(*SPECIAL, labels=_LOCATED),
              "The special point, such as `\"equilibria:LP1\"`, or `\"D_1:LP1\"` on the first branch of a diagram `D`.",
