@@ -154,7 +154,8 @@ def energy_barrier(point: Point, saddles: Saddles | None = None) -> Barrier:
 def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: bool = True) -> BarrierCurve:
     """Return the energy barriers along the stable points of a branch.
 
-    Rows closer to the last than a quarter of the branch's largest step are passed over, but for folds and the last one.
+    Rows closer to the last than a quarter of the branch's largest step are passed over, but for the branch's start,
+    special points and the last one.
     Passes are taken from the branch itself, from `saddles`, and from a search over all equilibria at the ends and in
     the middle of the range, whose passes are followed from there. A pass that is on none of these is missed.
 
@@ -180,7 +181,7 @@ def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: boo
 
 
 def _spaced(branch: Branch, rows: Sequence[int], labels: Sequence[str]) -> list[int]:
-    """Return those of some rows that lie some way apart along the branch, with folds and the last one."""
+    """Return those of some rows that lie some way apart along the branch, with start, special points and the last."""
     problem: Any = branch.problem
     if problem is None:
         return list(rows)
@@ -191,7 +192,7 @@ def _spaced(branch: Branch, rows: Sequence[int], labels: Sequence[str]) -> list[
     apart = _APART * branch.settings.get("ds_max", Settings().ds_max)
     kept = [rows[0]]
     for i in rows[1:]:
-        if s[i] - s[kept[-1]] >= apart or labels[i].startswith("LP") or i == rows[-1]:
+        if s[i] - s[kept[-1]] >= apart or labels[i] or i in (branch.start_index, rows[-1]):
             kept.append(i)
     return kept
 

@@ -76,6 +76,14 @@ def test_the_barrier_falls_along_the_branch_to_zero_at_the_fold(truss):
     assert on_top[inside] == pytest.approx([closed_form(p) if p else energy(0.0, 0.0) for p in loads[inside]], rel=1e-6)
 
 
+def test_barriers_lie_some_way_apart_whatever_the_rows(truss):
+    curve = mc.barrier_along(truss, search=False)
+    stable = np.flatnonzero((truss.stability == "stable") | np.char.startswith(truss.labels, "LP"))
+    assert len(curve.rows) < 0.7 * len(stable)
+    assert {truss.start_index, *(p.index for p in truss.of_kind("LP"))} <= set(curve.rows.tolist())
+    assert curve.rows[[0, -1]].tolist() == stable[[0, -1]].tolist()
+
+
 def test_a_pendulum_turns_over_past_a_barrier_of_twice_its_weight_times_length(pendulum_xml):
     pendulum = mc.Mechanism.from_xml(pendulum_xml(joint='damping="0.1"'))
     rest = mc.find_equilibrium(pendulum, state=[math.pi])
