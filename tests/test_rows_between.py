@@ -10,6 +10,7 @@ from conftest import BOUNDS, START
 from test_long_steps import branch_of, column, scaled
 
 import mjcont as mc
+from mjcont.numerics.between import _inverses
 
 # a rod on a ball joint, turned up by a force at its tip: positions carry a quaternion
 BALL = (
@@ -104,6 +105,14 @@ def test_rows_of_a_mechanism_with_a_ball_joint_balance_its_forces():
 def test_a_chord_that_is_too_small_is_refused(chord):
     with pytest.raises(mc.ParameterError, match=r"chord must be 1e-09 or more \(inf adds no rows\), got"):
         mc.continue_equilibria(mc.Mechanism.from_xml("overcentre"), "F", BOUNDS, {"F": START}, chord=chord)
+
+
+def test_a_singular_matrix_costs_its_own_row_only():
+    matrices = np.array([np.eye(3), np.zeros((3, 3)), 2.0 * np.eye(3)])
+    found = _inverses(matrices)
+    assert np.isnan(found[1]).all()
+    assert found[0] == pytest.approx(np.eye(3))
+    assert found[2] == pytest.approx(0.5 * np.eye(3))
 
 
 # -- stability ------------------------------------------------------------------------------------------------

@@ -88,14 +88,7 @@ def rows_between(system: System, points: Sequence[CurvePoint], chord: float) -> 
         chosen = np.flatnonzero(sizes[after] == size)
         for first in range(0, len(chosen), together):
             rows = chosen[first : first + together]
-            found = _settled(system, nodes, windows[after[rows], :size], after[rows], fraction[rows])
-            parts += [found] if found is not None else []
-    return _joined(parts)
-
-
-def _joined(parts: Sequence[Between]) -> Between | None:
-    if not parts:
-        return None
+            parts.append(_settled(system, nodes, windows[after[rows], :size], after[rows], fraction[rows]))
     found = Between(*(np.concatenate([getattr(p, name) for p in parts]) for name in Between.__slots__))
     return found.chosen(np.lexsort((found.fraction, found.after)))
 
@@ -164,7 +157,7 @@ def _apart(s: Array, i: int) -> list[int]:
     return chosen
 
 
-def _settled(system: System, nodes: _Nodes, windows: Array, after: Array, fraction: Array) -> Between | None:
+def _settled(system: System, nodes: _Nodes, windows: Array, after: Array, fraction: Array) -> Between:
     """Return those of some rows that settle, given the points (m, k) each is interpolated through."""
     n = system.n
     gaps = nodes.s[after + 1] - nodes.s[after]
@@ -173,12 +166,20 @@ def _settled(system: System, nodes: _Nodes, windows: Array, after: Array, fracti
     states, coordinates = system.move_each(nodes.states[after], nodes.coordinates[after], steps)
     matrix = np.empty((len(after), n + 1, n + 1))
     matrix[:, n], matrix[:, :n] = nodes.tangents[after], mixed(weights, nodes.jacs, windows)
-    try:
-        inverse = np.linalg.inv(matrix)[:, :, :n]
-    except np.linalg.LinAlgError:
-        return None
+    inverse = _inverses(matrix)[:, :, :n]
     errors, kept = _corrected(system, states, coordinates, inverse, equation_sizes(matrix[:, :n]), _FIRST * gaps)
     return Between(after[kept], fraction[kept], states[kept], coordinates[kept], errors[kept])
+
+
+def _inverses(matrices: Array) -> Array:
+    """Return the inverses of matrices (m, k, k), NaN for singular ones."""
+    try:
+        return np.linalg.inv(matrices)
+    except np.linalg.LinAlgError:
+        singular = np.linalg.det(matrices) == 0.0
+        found = np.linalg.inv(np.where(singular[:, None, None], np.eye(matrices.shape[1]), matrices))
+        found[singular] = np.nan
+        return found
 
 
 def _corrected(
