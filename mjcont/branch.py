@@ -200,7 +200,7 @@ class Branch:
     certificate: Certificate | None = field(repr=False, default=None)
 
     def __len__(self) -> int:
-        """Return the number of points."""
+        """Return the number of rows: the points reached in turn, special points, and rows between (see `Settings`)."""
         return len(self.states)
 
     def __getitem__(self, name: str) -> Array:
@@ -323,9 +323,9 @@ class Branch:
         return labels
 
     def __str__(self) -> str:
-        """Return a readable summary: points, stability, special points with values, status."""
+        """Return a readable summary: rows, stability, special points with values, status."""
         free = ", ".join(self.free)
-        lines = [f"{self.name}: {self.kind} in {free}, {len(self)} points"]
+        lines = [f"{self.name}: {self.kind} in {free}, {len(self)} rows"]
         for name, (low, high) in self.free.items():
             values, unit = self[name], self.unit(name)
             span = f"{show(values.min(), unit)} .. {show(values.max(), unit)}"

@@ -117,31 +117,45 @@ def collect(
     The branch is stored from the end reached when the parameter first falls, so labels count along it.
     """
     rows: list[tuple[CurvePoint, Located | None]] = []
-    ends: list[tuple[str, str]] = []
     start_index = 0
     for run, direction in zip(traces, directions, strict=False):
         ordered = ordered_rows(run)
-        end = (run.end.status.value, run.end.message)
         if direction < 0:
             rows = ordered[::-1]
             start_index = max(len(rows) - 1, 0)
-            ends = [end]
         else:
             rows += ordered[1:] if rows else ordered
-            ends.append(end)
     problem = system.problem
     if not rows:
-        raise StartError(f"{problem.name}: " + "; ".join(m for _, m in ends))  # type: ignore[attr-defined]
+        raise StartError(f"{problem.name}: " + "; ".join(t.end.message for t in traces))  # type: ignore[attr-defined]
     start = rows[start_index][0]
-    table = curve_rows(system, rows, chord_of(kind, settings, traces))
+    table = completed(kind, system, rows, settings, traces)
     start_index = next(i for i, p in enumerate(table.points) if p is start)
-    return build_branch(kind, table, ends, origin, start_index, settings, neutral, notes)
+    return build_branch(kind, table, ends_of(traces), origin, start_index, settings, neutral, notes)
 
 
-def chord_of(kind: str, settings: Settings, traces: Sequence[Trace]) -> float:
-    """Return how close chords are to stay to a curve: loci, and what an interrupt left, have no rows between points."""
-    stopped = any(t.end.status is Status.INTERRUPTED for t in traces)
-    return math.inf if stopped or kind != "equilibria" else settings.chord
+def ends_of(traces: Sequence[Trace]) -> list[tuple[str, str]]:
+    """Return how the directions of a curve ended: status and sentence of each."""
+    return [(t.end.status.value, t.end.message) for t in traces]
+
+
+def completed(
+    kind: str,
+    system: System,
+    rows: Sequence[tuple[CurvePoint, Located | None]],
+    settings: Settings,
+    traces: Sequence[Trace],
+) -> CurveRows:
+    """Return the rows of a curve, with rows between its points unless it is a locus or the user stopped it.
+
+    An interrupt meanwhile keeps the points, and ends the last of the curve's traces.
+    """
+    if kind == "equilibria" and not any(t.end.status is Status.INTERRUPTED for t in traces):
+        try:
+            return curve_rows(system, rows, settings.chord)
+        except KeyboardInterrupt:
+            traces[-1].end = End(Status.INTERRUPTED, "stopped by the user before rows were laid between the points")
+    return curve_rows(system, rows, math.inf)
 
 
 def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
@@ -205,7 +219,7 @@ def build_branch(
         neutral_saddles=[
             {n: v for n, v in system.values(e.point.y).items() if n in system.names} for e in neutral
         ],
-        notes=(*notes, *_springs(rows), *_unexplained(kind, rows, stability, n_unstable)),
+        notes=(*notes, *_springs(rows), *_left_out(rows), *_unexplained(kind, rows, stability, n_unstable)),
         fixed_units={k: u for k, u in unit_of.items() if k in base and k not in system.names},
     )
     object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows.located, spectra)))
@@ -222,6 +236,13 @@ def _springs(rows: CurveRows) -> list[str]:
     columns = [rows.column(i) for i in range(len(rows.system.free))]
     ends = [int(pick(c)) for c in columns for pick in (np.argmin, np.argmax)]
     return notes_on(rows.system.problem, [rows.values(i) for i in ends])
+
+
+def _left_out(rows: CurveRows) -> list[str]:
+    """Return a sentence on rows between points that are missing."""
+    if not rows.left_out:
+        return []
+    return [f"{rows.left_out} rows between points did not settle and are left out: chords are longer there"]
 
 
 def _eigenvalues(rows: CurveRows, spectra: Sequence[Spectrum | None]) -> Array | Callable[[], Array]:

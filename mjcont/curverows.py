@@ -32,6 +32,7 @@ class CurveRows:
     s : (N,) arclength from the start of the row's direction.
     points : the curve's point of each row, None for a row between points.
     located : the special point of each row, or None.
+    left_out : number of rows between points that were needed and did not settle.
     """
 
     system: System
@@ -41,6 +42,7 @@ class CurveRows:
     s: Array
     points: Sequence[CurvePoint | None]
     located: Sequence[Located | None]
+    left_out: int = 0
 
     def __len__(self) -> int:
         """Return the number of rows."""
@@ -50,7 +52,7 @@ class CurveRows:
         """Return some of the rows, in the order given."""
         states, coordinates, errors, s = (a[indices] for a in (self.states, self.coordinates, self.errors, self.s))
         points, located = [self.points[i] for i in indices], [self.located[i] for i in indices]
-        return CurveRows(self.system, states, coordinates, errors, s, points, located)
+        return CurveRows(self.system, states, coordinates, errors, s, points, located, self.left_out)
 
     def values(self, index: int) -> dict[str, float]:
         """Return the value of every parameter in a row."""
@@ -109,7 +111,7 @@ def curve_rows(system: System, rows: Sequence[tuple[CurvePoint, Located | None]]
     given = CurveRows(system, states, coordinates, errors, s, [p for p, _ in rows], [e for _, e in rows])
     regular = [i for i, (_, e) in enumerate(rows) if e is None]
     curve = [rows[i][0] for i in regular]
-    between = rows_between(system, curve, chord) if _cheap(system, chord) else None
+    between, left_out = rows_between(system, curve, chord) if _cheap(system, chord) else (None, 0)
     if between is None:
         return given
     outside = np.array(["outside" in p.extra for p in curve])
@@ -123,6 +125,7 @@ def curve_rows(system: System, rows: Sequence[tuple[CurvePoint, Located | None]]
         np.concatenate([s, at[between.after] + between.fraction * np.diff(at)[between.after]]),
         [*given.points, *[None] * len(between.after)],
         [*given.located, *[None] * len(between.after)],
+        left_out,
     )
     places = np.concatenate([_places(rows, regular), between.after + between.fraction])
     return added.chosen(np.argsort(places, kind="stable").tolist())

@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 
 from mjcont.branch import Branch, Point, SpecialPoint
-from mjcont.collect import Progress, build_branch, chord_of, ordered_rows, reporter
+from mjcont.collect import Progress, build_branch, completed, ends_of, ordered_rows, reporter
 from mjcont.continuation import (
     check_bounds,
     continue_equilibria,
     find_equilibrium,
     make_settings,
 )
-from mjcont.curverows import curve_rows
 from mjcont.errors import BoundsError, MjcontError
 from mjcont.numerics.arclength import CurvePoint, point_from
 from mjcont.numerics.events import Located
@@ -145,11 +144,10 @@ def _through(
         half.special = [e for e in half.special if _away(system, e.point, bp_point)]
     minus, plus = (ordered_rows(h) if h.points else [] for h in halves)
     rows: list[tuple[CurvePoint, Located | None]] = [*minus[::-1], (bp_point, located), *plus]
-    ends = [(h.end.status.value, h.end.message) for h in halves]
     notes = ["its two halves are mirror images"] if _mirrored(system, minus, plus) else []
-    table = curve_rows(system, rows, chord_of("equilibria", settings, halves))
+    table = completed("equilibria", system, rows, settings, halves)
     index = next(i for i, e in enumerate(table.located) if e is located)
-    return build_branch("equilibria", table, ends, f"through {point.label}", index, settings, neutral, notes)
+    return build_branch("equilibria", table, ends_of(halves), f"through {point.label}", index, settings, neutral, notes)
 
 
 def _away(system: System, a: CurvePoint, b: CurvePoint) -> bool:

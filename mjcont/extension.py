@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 
 from mjcont.branch import Branch, SpecialPoint
-from mjcont.collect import Progress, build_branch, chord_of, ordered_rows, reporter
+from mjcont.collect import Progress, build_branch, completed, ends_of, ordered_rows, reporter
 from mjcont.continuation import check_bounds, make_settings
-from mjcont.curverows import curve_rows
 from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.loci import default_ends, locus_detectors
 from mjcont.numerics.arclength import CurvePoint, first_point
@@ -179,13 +178,12 @@ def _as_branch(
             return s > known + _SAME
         return s > known - _SAME and not _has(branch, system, e)
 
-    rows = curve_rows(system, ordered_rows(run), chord_of(branch.kind, settings, [run]))
+    rows = completed(branch.kind, system, ordered_rows(run), settings, [run])
     new = [i for i in range(1, len(rows)) if is_new(float(rows.s[i]), rows.located[i])]
     if not new:
         return None
-    outcome = [(run.end.status.value, run.end.message)]
     rows = rows.chosen(new[::-1] if end == "first" else new)
-    return build_branch(branch.kind, rows, outcome, branch.start, 0, settings, neutral)
+    return build_branch(branch.kind, rows, ends_of([run]), branch.start, 0, settings, neutral)
 
 
 def _has(branch: Branch, system: System, e: Located) -> bool:

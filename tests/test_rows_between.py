@@ -10,7 +10,12 @@ from conftest import BOUNDS, START
 from test_long_steps import branch_of, column, scaled
 
 import mjcont as mc
+from mjcont.collect import ordered_rows, run_directions
+from mjcont.curverows import curve_rows
 from mjcont.numerics.between import _inverses
+from mjcont.numerics.settings import Settings
+from mjcont.numerics.system import Free, System
+from mjcont.walkers import equilibrium_walker
 
 # a rod on a ball joint, turned up by a force at its tip: positions carry a quaternion
 BALL = (
@@ -65,11 +70,11 @@ def test_rows_follow_each_other_along_the_curve(model):
 @pytest.mark.parametrize("model", ["overcentre", "nose_gear", "nose_gear_full"])
 def test_rows_have_small_residuals(model):
     branch = branch_of(model)
-    assert branch.residuals.max() < 1e-9
+    assert branch.residuals.max() < 1e-11
     found = [
         np.abs(branch.problem.residual(x, branch.parameters_at(i))).max() for i, x in enumerate(branch.states)
     ]
-    assert max(found) < 1e-9 * max(1.0, np.abs(branch[next(iter(branch.free))]).max())
+    assert max(found) < 1e-8  # N and N m, under loads of up to 800 kN
 
 
 def test_a_straight_curve_needs_no_rows_between():
@@ -115,6 +120,16 @@ def test_a_singular_matrix_costs_its_own_row_only():
     assert found[2] == pytest.approx(0.5 * np.eye(3))
 
 
+def test_rows_that_do_not_settle_are_left_out_and_a_note_says_so(monkeypatch):
+    plain, fine = branch_of("overcentre", math.inf), branch_of("overcentre")
+    assert not fine.notes
+    monkeypatch.setattr("mjcont.numerics.between._ROUNDS", 0)
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml("overcentre"), "F", BOUNDS, {"F": START})
+    assert len(branch) == len(plain)
+    missing = len(fine) - len(plain)
+    assert branch.notes == (f"{missing} rows between points did not settle and are left out: chords are longer there",)
+
+
 # -- stability ------------------------------------------------------------------------------------------------
 
 
@@ -128,27 +143,35 @@ def test_stability_changes_at_special_points_and_nowhere_else():
     assert list(branch.stability[marks]) == ["marginal", "marginal"]
 
 
-def test_rows_where_eigenvalues_pass_the_axis_together_have_a_stability_of_their_own():
-    """Two equal columns side by side buckle at one load: no special point tells on which side a row lies."""
-    one = "".join(
-        f'<body pos="0 {y} 0"><joint axis="0 1 0" stiffness="1" damping="0.1"/>'
-        f'<geom type="capsule" fromto="0 0 0 1 0 0" size="0.01"/><site name="tip{k}" pos="1 0 0"/></body>'
-        for k, y in enumerate((0.0, 0.5))
-    )
-    lean = '<joint name="lean" type="slide" axis="0 0 1" stiffness="1" damping="1"/>'
-    mechanism = mc.Mechanism.from_xml(
-        '<mujoco><option gravity="0 0 0"><flag contact="disable"/></option>'
-        '<custom><text name="mjcont/P" data="unit=N bounds=0,3 : control:P0 control:P1 control:P2"/></custom>'
-        f'<worldbody><site name="ground"/>{one}<body pos="0 2 0">{lean}<geom size="0.1"/><site name="rider"/></body>'
-        "</worldbody><actuator>"
-        '<general name="P0" site="tip0" refsite="ground" gear="-1 0 0 0 0 0"/>'
-        '<general name="P1" site="tip1" refsite="ground" gear="-1 0 0 0 0 0"/>'
-        '<general name="P2" joint="lean" gear="1"/></actuator></mujoco>'
-    )
-    branch = mc.continue_equilibria(mechanism, "P", (0.0, 3.0), direction=1)
-    for p, count, word in zip(branch["P"], branch.n_unstable, branch.stability, strict=True):
+# a rod on two crossed hinges buckles both ways at P = 1 N; a slide and an oblique spring bend the straight branch
+CROSSED = (
+    '<mujoco><option gravity="0 0 0"><flag contact="disable"/></option><worldbody><site name="ground"/>'
+    '<site name="post" pos="0 1 0"/><body><joint type="slide" axis="1 0 0" stiffness="0.1" damping="1"/>'
+    '<geom size="0.05"/><site name="hook"/><body><joint axis="0 1 0" stiffness="1" damping="0.1"/>'
+    '<joint axis="0 0 1" stiffness="1" damping="0.1"/><geom type="capsule" fromto="0 0 0 1 0 0" size="0.01"/>'
+    '<site name="tip" pos="1 0 0"/></body></body></worldbody><tendon><spatial stiffness="2" springlength="0.9">'
+    '<site site="post"/><site site="hook"/></spatial></tendon>'
+    '<actuator><general name="P" site="tip" refsite="ground" gear="-1 0 0 0 0 0"/></actuator></mujoco>'
+)
+
+
+@pytest.mark.parametrize("told", [True, False])
+def test_rows_on_both_sides_of_a_double_crossing_have_the_stability_of_their_side(told):
+    """Without the special point that tells where eigenvalues pass, rows between that disagree have spectra."""
+    mechanism = mc.Mechanism.from_xml(CROSSED)
+    x, values = mechanism.start_state(), mechanism.values({"P": 0.0})
+    system = System(mechanism, values, [Free("P", 0.0, 2.0)])
+    walker = equilibrium_walker(system, Settings(), [], {})
+    (run,) = run_directions(walker, x, system.start_y(), (1.0,), None)
+    assert [e.kind for e in run.special] == ["BP"]
+    rows = curve_rows(system, [r for r in ordered_rows(run) if told or r[1] is None], 1e-6)
+    loads, (words, counts, spectra) = rows.column(0), rows.stability()
+    assert len(rows) > 5 * len(run.points)
+    own = [s is not None and p is None for s, p in zip(spectra, rows.points, strict=True)]
+    assert any(own) is not told
+    for p, word, count in zip(loads, words, counts, strict=True):
         if abs(p - 1.0) > 1e-6:
-            assert (count, word) == ((0, "stable") if p < 1.0 else (2, "unstable"))
+            assert (word, count) == (("stable", 0) if p < 1.0 else ("unstable", 2))
 
 
 # -- ends -----------------------------------------------------------------------------------------------------
@@ -173,6 +196,17 @@ def test_an_interrupted_branch_holds_the_points_that_were_reached():
     branch = mc.continue_equilibria(mechanism, "F", BOUNDS, {"F": START}, progress=impatient)
     assert branch.interrupted
     assert len(branch) == 10
+
+
+def test_an_interrupt_while_rows_are_laid_keeps_the_points(monkeypatch):
+    def interrupted(*arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("mjcont.curverows.rows_between", interrupted)
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml("overcentre"), "F", BOUNDS, {"F": START})
+    assert branch.interrupted
+    assert len(branch) == len(branch_of("overcentre", math.inf))
+    assert [p.label for p in branch.special_points] == ["LP1", "LP2"]
 
 
 def test_what_a_branch_is_extended_by_has_rows_as_close():

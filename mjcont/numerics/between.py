@@ -66,19 +66,19 @@ class _Nodes:
     jacs: Array
 
 
-def rows_between(system: System, points: Sequence[CurvePoint], chord: float) -> Between | None:
-    """Return rows between the points of a curve of equilibria, in order; None where none are needed.
+def rows_between(system: System, points: Sequence[CurvePoint], chord: float) -> tuple[Between | None, int]:
+    """Return rows between the points of a curve of equilibria, in order, and how many more were needed.
 
     `chord` is the largest distance of the straight lines between rows from the curve, in scaled unknowns. Rows that do
-    not settle between the points on both sides are left out.
+    not settle between the points on both sides are left out. None where none are needed.
     """
     if len(points) < 2:
-        return None
+        return None, 0
     nodes = _gathered(system, points)
     counts = _counts(nodes, chord)
     after = np.repeat(np.arange(len(counts)), counts)
     if not len(after):
-        return None
+        return None, 0
     firsts = np.repeat(np.cumsum(counts) - counts, counts)
     fraction = (np.arange(len(after)) - firsts + 1.0) / (counts[after] + 1.0)
     windows, sizes = _windows(nodes.s, np.flatnonzero(counts))
@@ -90,7 +90,7 @@ def rows_between(system: System, points: Sequence[CurvePoint], chord: float) -> 
             rows = chosen[first : first + together]
             parts.append(_settled(system, nodes, windows[after[rows], :size], after[rows], fraction[rows]))
     found = Between(*(np.concatenate([getattr(p, name) for p in parts]) for name in Between.__slots__))
-    return found.chosen(np.lexsort((found.fraction, found.after)))
+    return found.chosen(np.lexsort((found.fraction, found.after))), len(after) - len(found.after)
 
 
 def _gathered(system: System, points: Sequence[CurvePoint]) -> _Nodes:
@@ -130,7 +130,7 @@ def _counts(nodes: _Nodes, chord: float) -> Array:
 def _windows(s: Array, gaps: Array) -> tuple[Array, Array]:
     """Return the points through which gaps are interpolated, and how many they are, by the point before the gap.
 
-    They are (N - 1, k) and (N - 1,); rows hold what they hold from the left.
+    They are (N - 1, k) and (N - 1,): of each row of points the first so many count.
     """
     lengths, count = np.diff(s), min(_NODES, len(s))
     first = np.clip(gaps - (count // 2 - 1), 0, len(s) - count)

@@ -27,7 +27,8 @@ class Settings:
     max_points, max_arclength, max_seconds : limits of one direction; rows between points do not count.
     chord : float
         Largest distance of straight lines between the rows of a branch from the curve, where rows between its points
-        are cheap: along a control of a mechanism without contacts, limits or friction. Infinity adds none.
+        are cheap: along a control of a mechanism without contacts, limits or friction. Infinity adds none. It has no
+        effect on loci and load paths.
     max_size : float
         Largest scaled state coordinate, relative to the start's if that exceeds one: where a curve runs off.
     """
