@@ -42,7 +42,7 @@ test-long: env ## the tests that take minutes
 	$(BIN)/pytest -q -n auto -m "long and not thirdparty"
 
 thirdparty: env ## download models from other packages, in .thirdparty
-	@$(BIN)/python tests/thirdparty.py
+	@$(BIN)/python tests/problems/thirdparty.py
 
 test-thirdparty: thirdparty ## the tests on models that none of us wrote
 	$(BIN)/pytest -q -n auto -m thirdparty

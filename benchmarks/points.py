@@ -15,7 +15,7 @@ from mujoco.batch import Batch
 import mjcont as mc
 from benchmarks.cases import Case
 from benchmarks.measure import seconds
-from mjcont import rows
+from mjcont.mechanism import batches as rows
 
 
 class Floor:

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import mjcont as mc
-from mjcont.plotting import new_figure, place_labels, save_figure, set_panel_title
+from mjcont.drawing.plotting import new_figure, place_labels, save_figure, set_panel_title
 
 OUT = Path(__file__).parent / "images"
 

@@ -29,65 +29,69 @@ from mjcont.errors import (
 )
 
 if TYPE_CHECKING:
-    from mjcont.adjoint import Sensitivities, sensitivities
-    from mjcont.branch import Branch, Column, Point, SpecialPoint
-    from mjcont.bushes import add_bushes, bushed_xml, set_constraint_stiffness
-    from mjcont.certificates import Certificate, verify_stability
-    from mjcont.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
-    from mjcont.critical import FollowedPoint, follow_point
-    from mjcont.designs import Spread
-    from mjcont.diagram import Diagram, bifurcation_diagram, switch_branches
-    from mjcont.drawing import add_poses, animate, draw, draw_poses
-    from mjcont.equalities import ConstraintStiffness, constraint_stiffness
-    from mjcont.extension import extend
-    from mjcont.extremes import WorstCase, worst_case
-    from mjcont.found import Equilibria, Equilibrium
-    from mjcont.histories import History, simulate, simulate_many
-    from mjcont.loadpaths import load_path
-    from mjcont.loci import continue_special
-    from mjcont.maps import SpecialMap, special_map
-    from mjcont.margins import Barrier, BarrierCurve, BarrierMap, barrier_along, barrier_map, energy_barrier
-    from mjcont.mechanism import Mechanism
-    from mjcont.numerics.settings import Settings
-    from mjcont.pathresults import Jump, LoadPath, Segment
-    from mjcont.plotting import plot
-    from mjcont.search import find_equilibria
-    from mjcont.stiffness import StiffnessStudy, stiffness_study
-    from mjcont.storage import load
-    from mjcont.study import load_study, run_study
-    from mjcont.sweeps import sweep
-    from mjcont.sweeptable import SweepTable
+    from mjcont.curves.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
+    from mjcont.curves.diagram import Diagram, bifurcation_diagram, switch_branches
+    from mjcont.curves.extension import extend
+    from mjcont.curves.loci import continue_special
+    from mjcont.curves.search import find_equilibria
+    from mjcont.curves.stiffness import StiffnessStudy, stiffness_study
+    from mjcont.drawing.animation import animate
+    from mjcont.drawing.plotting import plot
+    from mjcont.drawing.poses import add_poses, draw, draw_poses
+    from mjcont.influence.critical import FollowedPoint, follow_point
+    from mjcont.influence.extremes import WorstCase, worst_case
+    from mjcont.influence.maps import SpecialMap, special_map
+    from mjcont.influence.sensitivities import Sensitivities, sensitivities
+    from mjcont.mechanism.mechanism import Mechanism
+    from mjcont.models.bushes import add_bushes, bushed_xml, set_constraint_stiffness
+    from mjcont.models.equalities import ConstraintStiffness, constraint_stiffness
+    from mjcont.motion.certificates import Certificate, verify_stability
+    from mjcont.motion.histories import History, simulate, simulate_many
+    from mjcont.motion.loadpaths import load_path
+    from mjcont.motion.margins import Barrier, BarrierCurve, BarrierMap, barrier_along, barrier_map, energy_barrier
+    from mjcont.numerics.equations.settings import Settings
+    from mjcont.results.branch import Branch, Column, Point, SpecialPoint
+    from mjcont.results.files import load
+    from mjcont.results.loadpaths import Jump, LoadPath, Segment
+    from mjcont.results.search import Equilibria, Equilibrium
+    from mjcont.results.sweeps import SweepTable
+    from mjcont.studies.study import load_study, run_study
+    from mjcont.sweeps.designs import Spread
+    from mjcont.sweeps.sweeps import sweep
     from mjcont.vectorfield import VectorField
 
 _HOMES = {
-    "mjcont.adjoint": ("Sensitivities", "sensitivities"),
-    "mjcont.branch": ("Branch", "Column", "Point", "SpecialPoint"),
-    "mjcont.bushes": ("add_bushes", "bushed_xml", "set_constraint_stiffness"),
-    "mjcont.certificates": ("Certificate", "verify_stability"),
-    "mjcont.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
-    "mjcont.critical": ("FollowedPoint", "follow_point"),
-    "mjcont.designs": ("Spread",),
-    "mjcont.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
-    "mjcont.drawing": ("add_poses", "animate", "draw", "draw_poses"),
-    "mjcont.equalities": ("ConstraintStiffness", "constraint_stiffness"),
-    "mjcont.extension": ("extend",),
-    "mjcont.extremes": ("WorstCase", "worst_case"),
-    "mjcont.loadpaths": ("load_path",),
-    "mjcont.loci": ("continue_special",),
-    "mjcont.maps": ("SpecialMap", "special_map"),
-    "mjcont.margins": ("Barrier", "BarrierCurve", "BarrierMap", "barrier_along", "barrier_map", "energy_barrier"),
-    "mjcont.mechanism": ("Mechanism",),
-    "mjcont.numerics.settings": ("Settings",),
-    "mjcont.pathresults": ("Jump", "LoadPath", "Segment"),
-    "mjcont.plotting": ("plot",),
-    "mjcont.found": ("Equilibria", "Equilibrium"),
-    "mjcont.histories": ("History", "simulate", "simulate_many"),
-    "mjcont.search": ("find_equilibria",),
-    "mjcont.stiffness": ("StiffnessStudy", "stiffness_study"),
-    "mjcont.storage": ("load",),
-    "mjcont.study": ("load_study", "run_study"),
-    "mjcont.sweeps": ("sweep",),
-    "mjcont.sweeptable": ("SweepTable",),
+    "mjcont.influence.sensitivities": ("Sensitivities", "sensitivities"),
+    "mjcont.results.branch": ("Branch", "Column", "Point", "SpecialPoint"),
+    "mjcont.models.bushes": ("add_bushes", "bushed_xml", "set_constraint_stiffness"),
+    "mjcont.motion.certificates": ("Certificate", "verify_stability"),
+    "mjcont.curves.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
+    "mjcont.influence.critical": ("FollowedPoint", "follow_point"),
+    "mjcont.sweeps.designs": ("Spread",),
+    "mjcont.curves.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
+    "mjcont.drawing.animation": ("animate",),
+    "mjcont.drawing.poses": ("add_poses", "draw", "draw_poses"),
+    "mjcont.models.equalities": ("ConstraintStiffness", "constraint_stiffness"),
+    "mjcont.curves.extension": ("extend",),
+    "mjcont.influence.extremes": ("WorstCase", "worst_case"),
+    "mjcont.motion.loadpaths": ("load_path",),
+    "mjcont.curves.loci": ("continue_special",),
+    "mjcont.influence.maps": ("SpecialMap", "special_map"),
+    "mjcont.motion.margins": (
+        "Barrier", "BarrierCurve", "BarrierMap", "barrier_along", "barrier_map", "energy_barrier",
+    ),
+    "mjcont.mechanism.mechanism": ("Mechanism",),
+    "mjcont.numerics.equations.settings": ("Settings",),
+    "mjcont.results.loadpaths": ("Jump", "LoadPath", "Segment"),
+    "mjcont.drawing.plotting": ("plot",),
+    "mjcont.results.search": ("Equilibria", "Equilibrium"),
+    "mjcont.motion.histories": ("History", "simulate", "simulate_many"),
+    "mjcont.curves.search": ("find_equilibria",),
+    "mjcont.curves.stiffness": ("StiffnessStudy", "stiffness_study"),
+    "mjcont.results.files": ("load",),
+    "mjcont.studies.study": ("load_study", "run_study"),
+    "mjcont.sweeps.sweeps": ("sweep",),
+    "mjcont.results.sweeps": ("SweepTable",),
     "mjcont.vectorfield": ("VectorField",),
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}

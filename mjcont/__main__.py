@@ -2,7 +2,7 @@
 
 import sys
 
-from mjcont.cli import main
+from mjcont.commands.cli import main
 
 if __name__ == "__main__":
     sys.exit(main())

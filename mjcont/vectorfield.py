@@ -9,15 +9,15 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.errors import ParameterError, leaves_domain, unknown_name
-from mjcont.numerics.differences import (
+from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
     PARAMETER,
     Stencil,
     jacobian_from_rows,
     jacobian_steps,
 )
-from mjcont.numerics.problem import Array, Linearization, Pencil, Values
-from mjcont.quantities import Observable, Parameter, default_bounds
+from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Values
+from mjcont.results.quantities import Observable, Parameter, default_bounds
 
 
 class VectorField:

@@ -15,8 +15,7 @@ from typing import Any
 import numpy as np
 
 import mjcont as mc
-from mjcont.numerics.problem import Array
-from mjcont.plotting import (
+from mjcont.drawing.plotting import (
     COLORS,
     GREY,
     LINE_STYLES,
@@ -27,7 +26,8 @@ from mjcont.plotting import (
     save_figure,
     set_panel_title,
 )
-from mjcont.reproduce import Finding, whole
+from mjcont.numerics.equations.problem import Array
+from mjcont.paper.reproduce import Finding, whole
 
 LOAD_FACTORS = (0.5, 1.0, 2.5)
 ANGLES = (-20.0, 0.0, 20.0)  # deg

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mjcont.numerics.problem import Array
+from mjcont.numerics.equations.problem import Array
 
 G = 9.81
 

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from mjcont.numerics.problem import Array
+from mjcont.numerics.equations.problem import Array
 
 GRAVITY = 9.81
 A = np.array([-1.540, 0.007])  # from D; lengths in m, docs/paper.md

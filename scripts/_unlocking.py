@@ -15,7 +15,7 @@ import numpy as np
 from _gusts import Aircraft, Gust, one_minus_cos
 
 import mjcont as mc
-from mjcont.numerics.problem import Array
+from mjcont.numerics.equations.problem import Array
 
 STOWED = 4.0e5  # N: the gear rests there both locked and unlocked, so that it shows what it has become
 OVERTRAVEL = 5.0e5  # N: 3 % above the cusp; one rest is left there, which the unlock force moves across overcentre

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import mjcont as mc
-from mjcont.plotting import save_figure
-from mjcont.reproduce import Finding, run_script
+from mjcont.drawing.plotting import save_figure
+from mjcont.paper.reproduce import Finding, run_script
 
 
 def main(out: Path) -> list[Finding]:

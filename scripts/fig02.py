@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 import mjcont as mc
-from mjcont.numerics.problem import Array
-from mjcont.plotting import COLORS, new_figure, place_labels, plot, save_figure, set_panel_title
-from mjcont.reproduce import Finding, run_script, whole
+from mjcont.drawing.plotting import COLORS, new_figure, place_labels, plot, save_figure, set_panel_title
+from mjcont.numerics.equations.problem import Array
+from mjcont.paper.reproduce import Finding, run_script, whole
 
 BOUNDS = (-50.0, 50.0)
 DAMPING = (0.01, 10.0)

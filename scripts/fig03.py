@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 import mjcont as mc
-from mjcont.plotting import new_figure, pieces, plot, save_figure, set_panel_title
-from mjcont.reproduce import Finding, run_script, whole
+from mjcont.drawing.plotting import new_figure, pieces, plot, save_figure, set_panel_title
+from mjcont.paper.reproduce import Finding, run_script, whole
 
 BOUNDS = (-50.0, 50.0)
 DAMPING = (0.01, 10.0)

@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 import mjcont as mc
-from mjcont.numerics.problem import Array
-from mjcont.plotting import GREY, new_figure, pieces, plot, save_figure, set_panel_title
-from mjcont.reproduce import Finding, distances, run_script, whole
+from mjcont.drawing.plotting import GREY, new_figure, pieces, plot, save_figure, set_panel_title
+from mjcont.numerics.equations.problem import Array
+from mjcont.paper.reproduce import Finding, distances, run_script, whole
 
 BOUNDS = (-50.0, 50.0)
 WINDOW = (100.0, np.pi)  # what the axes of (b) span: N, rad

@@ -13,8 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import mjcont as mc
-from mjcont.numerics.problem import Array
-from mjcont.plotting import (
+from mjcont.drawing.plotting import (
     COLORS,
     draw_curve,
     mark,
@@ -25,7 +24,8 @@ from mjcont.plotting import (
     set_panel_title,
     split_by_stability,
 )
-from mjcont.reproduce import Finding, distances, run_script, whole
+from mjcont.numerics.equations.problem import Array
+from mjcont.paper.reproduce import Finding, distances, run_script, whole
 
 BOUNDS = (-50.0, 50.0)
 WINDOW = (100.0, np.pi)  # what the axes span: N, rad

@@ -14,9 +14,9 @@ import numpy as np
 from _gear import add_legend, angle_of, draw_sides
 
 import mjcont as mc
-from mjcont.numerics.problem import Array
-from mjcont.plotting import mark, new_figure, pieces, save_figure, set_panel_title
-from mjcont.reproduce import Finding, run_script, whole
+from mjcont.drawing.plotting import mark, new_figure, pieces, save_figure, set_panel_title
+from mjcont.numerics.equations.problem import Array
+from mjcont.paper.reproduce import Finding, run_script, whole
 
 BOUNDS = (0.0, 60.0)
 DAMPING = (1.0, 1000.0)

@@ -18,9 +18,9 @@ import numpy as np
 from _gear import add_legend, angle_of, draw_sides
 
 import mjcont as mc
-from mjcont.numerics.problem import Array
-from mjcont.plotting import draw_curve, mark, new_figure, pieces, save_figure, set_panel_title
-from mjcont.reproduce import Finding, run_script, whole
+from mjcont.drawing.plotting import draw_curve, mark, new_figure, pieces, save_figure, set_panel_title
+from mjcont.numerics.equations.problem import Array
+from mjcont.paper.reproduce import Finding, run_script, whole
 
 BOUNDS = (-40.0, 60.0)  # F_ret in N
 WINDOW = np.radians(-20.0)  # theta_1 near uplock lies below

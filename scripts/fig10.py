@@ -15,9 +15,9 @@ import numpy as np
 from _gear import DS_MAX, STARTS, Slice, add_legend, angle_of, draw_sides, load_case, wrapped
 
 import mjcont as mc
-from mjcont.histories import simulate
-from mjcont.plotting import mark, new_figure, save_figure, set_panel_title
-from mjcont.reproduce import Finding, run_script, whole
+from mjcont.drawing.plotting import mark, new_figure, save_figure, set_panel_title
+from mjcont.motion.histories import simulate
+from mjcont.paper.reproduce import Finding, run_script, whole
 
 BOUNDS = (0.0, 1e6)
 KEYFRAMES = ("uplock_above", "uplock_below", "downlock_above", "downlock_below")

@@ -13,9 +13,9 @@ import numpy as np
 from _gear import ANGLES, PANELS, UNLOCK, Case, Slice, add_legend, angle_of, cases, load_case, signed
 
 import mjcont as mc
-from mjcont.histories import simulate
-from mjcont.plotting import new_figure, save_figure, set_panel_title
-from mjcont.reproduce import Finding, run_script, whole
+from mjcont.drawing.plotting import new_figure, save_figure, set_panel_title
+from mjcont.motion.histories import simulate
+from mjcont.paper.reproduce import Finding, run_script, whole
 
 
 def main(out: Path) -> list[Finding]:

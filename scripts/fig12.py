@@ -24,7 +24,7 @@ from _gear import (
 )
 
 import mjcont as mc
-from mjcont.reproduce import Finding, run_script
+from mjcont.paper.reproduce import Finding, run_script
 
 
 def main(out: Path) -> list[Finding]:

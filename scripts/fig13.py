@@ -12,8 +12,8 @@ import numpy as np
 from _gear import ANGLES, LOAD_FACTORS, Case, Slice, add_legend, angle_of, cases, load_case
 
 import mjcont as mc
-from mjcont.plotting import new_figure, save_figure, set_panel_title
-from mjcont.reproduce import Finding, run_script, whole
+from mjcont.drawing.plotting import new_figure, save_figure, set_panel_title
+from mjcont.paper.reproduce import Finding, run_script, whole
 
 
 def main(out: Path) -> list[Finding]:

@@ -12,7 +12,7 @@ from pathlib import Path
 from _gear import Case, cases, found_cusps, least_favourable, loci_figure, separates, spread
 
 import mjcont as mc
-from mjcont.reproduce import Finding, run_script
+from mjcont.paper.reproduce import Finding, run_script
 
 
 def main(out: Path) -> list[Finding]:

@@ -27,8 +27,8 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 import mjcont as mc
-from mjcont.plotting import COLORS, draw_curve, mark, save_figure, set_panel_title
-from mjcont.reproduce import Finding, run_script, whole
+from mjcont.drawing.plotting import COLORS, draw_curve, mark, save_figure, set_panel_title
+from mjcont.paper.reproduce import Finding, run_script, whole
 
 REACH = np.radians(30.0)
 

@@ -17,9 +17,9 @@ from _gear import ANGLES, LOAD_FACTORS, Case
 from _rigid_gear import RigidGear
 
 import mjcont as mc
-from mjcont.numerics.problem import Array
-from mjcont.plotting import COLORS, new_figure, save_figure, set_panel_title
-from mjcont.reproduce import Finding, run_script
+from mjcont.drawing.plotting import COLORS, new_figure, save_figure, set_panel_title
+from mjcont.numerics.equations.problem import Array
+from mjcont.paper.reproduce import Finding, run_script
 
 ANGLE_RANGE = (np.radians(-30.0), np.radians(30.0))
 LOAD_RANGE = (0.5, 2.5)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from mjcont.shapes import SHAPES
-from mjcont.studykeys import Key, Kind
-from mjcont.studytables import KINDS, PLOT
+from mjcont.studies.keys import Key, Kind
+from mjcont.studies.tables import KINDS, PLOT
+from mjcont.studies.waveforms import SHAPES
 
 DOCS = Path(__file__).resolve().parent.parent / "docs" / "studies.md"
 FIRST, LAST = "<!-- keys: written by scripts/study_tables.py -->", "<!-- end of keys -->"

@@ -20,9 +20,9 @@ from _gear import Case
 from scipy import stats
 
 import mjcont as mc
-from mjcont.numerics.problem import Array
-from mjcont.plotting import COLORS, GREY, new_figure, save_figure, set_panel_title
-from mjcont.reproduce import Finding, run_script
+from mjcont.drawing.plotting import COLORS, GREY, new_figure, save_figure, set_panel_title
+from mjcont.numerics.equations.problem import Array
+from mjcont.paper.reproduce import Finding, run_script
 
 # Standard deviations at factor 1: shares of the nominal value, or m.
 RELATIVE = {"k_j": 0.01, "k_sp": 0.01, "m_1": 0.01, "m_2": 0.01, "m_3": 0.01, "m_4": 0.01, "m_5": 0.01, "m_6": 0.01}

@@ -38,9 +38,9 @@ from _unlocking import (
 )
 
 import mjcont as mc
-from mjcont.numerics.problem import Array
-from mjcont.plotting import COLORS, new_figure, save_figure, set_panel_title
-from mjcont.reproduce import Finding, run_script
+from mjcont.drawing.plotting import COLORS, new_figure, save_figure, set_panel_title
+from mjcont.numerics.equations.problem import Array
+from mjcont.paper.reproduce import Finding, run_script
 
 HIGH_LIFT_GUST = 7.62  # m/s, CS-25.345: the gear is let down with high-lift devices out
 CRUISE_GUST = 17.07  # m/s, the reference of CS-25.341 at sea level

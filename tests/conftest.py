@@ -5,11 +5,9 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
+from problems.reference import BOUNDS, START
 
 import mjcont as mc
-
-BOUNDS = (-50.0, 60.0)
-START = 50.0
 
 
 @pytest.fixture

@@ -13,19 +13,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont import plotting
-from mjcont.branch import Branch
+from mjcont.drawing import plotting
 from mjcont.drawing.frames import Frame, Result, Track, default_columns, frames_of, track_of
 from mjcont.drawing.movies import check_movie, write_movie
 from mjcont.drawing.offscreen import Offscreen
+from mjcont.drawing.pathplots import axis_label
 from mjcont.drawing.picture import Picture, pictured
 from mjcont.drawing.shapes import Scene, plane_axes
 from mjcont.drawing.sketch import padded, render
+from mjcont.drawing.viewer import Stand
 from mjcont.errors import MjcontError, unknown_name
-from mjcont.histories import History
-from mjcont.numerics.problem import Array
-from mjcont.pathplots import axis_label
-from mjcont.viewer import Stand
+from mjcont.motion.histories import History
+from mjcont.numerics.equations.problem import Array
+from mjcont.results.branch import Branch
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

@@ -12,12 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.branch import KIND_NAMES, Branch, show
 from mjcont.errors import MjcontError
-from mjcont.histories import History
-from mjcont.mechanism import Mechanism
-from mjcont.numerics.problem import Array
-from mjcont.pathresults import Jump, LoadPath
+from mjcont.mechanism.mechanism import Mechanism
+from mjcont.motion.histories import History
+from mjcont.numerics.equations.problem import Array
+from mjcont.results.branch import KIND_NAMES, Branch, show
+from mjcont.results.loadpaths import Jump, LoadPath
 
 Result = History | Branch | LoadPath
 # how far a jump counts at least, in parts of the diagram: shorter ones would pass unseen

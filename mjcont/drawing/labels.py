@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont import plotting
+from mjcont.drawing import plotting
 from mjcont.drawing.picture import Force, Picture, Spring
 from mjcont.drawing.shapes import Shape
 from mjcont.drawing.sketch import FORCE, INK, arrow
 from mjcont.errors import unknown_name
-from mjcont.numerics.problem import Array
+from mjcont.numerics.equations.problem import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from mjcont.errors import MjcontError
-from mjcont.numerics.problem import Array
-from mjcont.storage import write_atomically
+from mjcont.numerics.equations.problem import Array
+from mjcont.results.files import write_atomically
 
 SUFFIXES = (".gif", ".mp4")
 # a GIF counts hundredths of a second, and viewers slow down below two of them

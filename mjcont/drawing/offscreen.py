@@ -8,7 +8,7 @@ from typing import Any
 import mujoco
 
 from mjcont.errors import MjcontError, unknown_name
-from mjcont.numerics.problem import Array
+from mjcont.numerics.equations.problem import Array
 
 
 class Offscreen:

@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 import mujoco
 import numpy as np
 
-from mjcont.branch import Point
 from mjcont.drawing.shapes import Color, Scene, Shape, painted, plane_axes, shapes_of
+from mjcont.drawing.viewer import posed
 from mjcont.errors import MjcontError
-from mjcont.mechanism import Mechanism
-from mjcont.numerics.problem import Array
-from mjcont.paths import is_bush
-from mjcont.viewer import posed
+from mjcont.mechanism.mechanism import Mechanism
+from mjcont.mechanism.paths import is_bush
+from mjcont.numerics.equations.problem import Array
+from mjcont.results.branch import Point
 
 Pose = Point | Array | str | None
 _JOINT, _TRANSMISSION, _WRAP = mujoco.mjtJoint, mujoco.mjtTrn, mujoco.mjtWrap

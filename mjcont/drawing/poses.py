@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont import plotting
-from mjcont.branch import Branch, Point
+from mjcont.drawing import plotting
 from mjcont.drawing.labels import Labels, write_labels
 from mjcont.drawing.picture import Picture, Pose, picture
 from mjcont.drawing.sketch import padded, render
 from mjcont.errors import MjcontError, unknown_name
-from mjcont.mechanism import Mechanism
-from mjcont.numerics.problem import Array
+from mjcont.mechanism.mechanism import Mechanism
+from mjcont.numerics.equations.problem import Array
+from mjcont.results.branch import Branch, Point
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -13,8 +13,8 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import MjcontError
-from mjcont.numerics.problem import Array
-from mjcont.paths import element_names
+from mjcont.mechanism.paths import element_names
+from mjcont.numerics.equations.problem import Array
 
 Color = tuple[float, ...]
 _JOINT, _GEOM = mujoco.mjtJoint, mujoco.mjtGeom

@@ -13,7 +13,7 @@ import numpy as np
 
 from mjcont.drawing.picture import Force, Picture, Pin, Spring
 from mjcont.drawing.shapes import Color, Shape
-from mjcont.numerics.problem import Array
+from mjcont.numerics.equations.problem import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

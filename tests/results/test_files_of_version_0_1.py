@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from reference import ELASTIC_FOLDS
+from problems.reference import ELASTIC_FOLDS
 
 import mjcont as mc
 

@@ -1,0 +1,60 @@
+"""The command `mjcont animate`: a stored history, branch or load path as a moving picture."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+
+def add_arguments(p: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    p.add_argument("file", metavar="FILE.h5", help="a history, a branch or a load path")
+    p.add_argument("-o", "--out", metavar="FILE", help="gif, or mp4 with ffmpeg (default: FILE.gif beside the input)")
+    p.add_argument("-x", metavar="COL", help="column along the horizontal axis (default: time, or the parameter)")
+    p.add_argument("-y", metavar="COL", help="column along the vertical axis (default: the first observable)")
+    p.add_argument("--on", metavar="BRANCH.h5", action="append", help="a branch to draw the diagram of (repeat it)")
+    p.add_argument("--fps", type=float, default=25.0, help="frames a second (default: 25)")
+    p.add_argument("--seconds", type=float, help="length (default: real time of 2 to 20 s, or 8 s)")
+    p.add_argument("--size", metavar="WxH", type=_size, default=(800, 360), help="in pixels (default: 800x360)")
+    p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
+    p.add_argument("--plane", help="the drawing's horizontal and vertical axis, such as xz or -xz")
+    p.add_argument("--rendering", default="drawing", help="drawing (default), or mujoco, which needs OpenGL")
+    p.add_argument("--camera", metavar="NAME", help="one of the model's cameras, with --rendering mujoco")
+
+
+def run(args: argparse.Namespace, say: Callable[[str], None]) -> int:
+    """Write the animation and say where it is."""
+    from mjcont.drawing.animation import animate
+    from mjcont.errors import MjcontError
+    from mjcont.results.files import load
+
+    out = Path(args.out) if args.out else Path(args.file).with_suffix(".gif")
+    live = sys.stderr is not None and sys.stderr.isatty()
+    result, on = load(args.file), [load(b) for b in args.on or []]
+    try:
+        animate(
+            result, out, args.x, args.y, on=on, fps=args.fps, seconds=args.seconds, size=args.size,
+            degrees=args.degrees, plane=args.plane, rendering=args.rendering, camera=args.camera,
+            progress=_show if live else None,
+        )
+    except MjcontError as error:
+        raise type(error)(f"'{args.file}': {error}") from error
+    finally:
+        if live:
+            sys.stderr.write("\r\x1b[K")
+    say(f"animation: {out}")
+    return 0
+
+
+def _show(done: int, count: int) -> None:
+    sys.stderr.write(f"\r\x1b[Kframe {done} of {count}")
+    sys.stderr.flush()
+
+
+def _size(text: str) -> tuple[int, int]:
+    width, _, height = text.partition("x")
+    if not (width.isdecimal() and height.isdecimal()):
+        raise argparse.ArgumentTypeError(f"expected WIDTHxHEIGHT in pixels such as 800x360, got '{text}'")
+    return int(width), int(height)

@@ -1,0 +1,325 @@
+"""The command line, `mjcont`. Every error that a user can cause is one line on stderr and exit status 2.
+
+What a command needs is imported when it runs, so `mjcont --help` is quick.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mjcont.commands import animate as cli_animate
+from mjcont.commands.arguments import parser
+from mjcont.errors import MjcontError, ResultFileError
+from mjcont.results.quantities import FRICTION
+
+if TYPE_CHECKING:
+    from mjcont.results.branch import Branch, Point
+
+OK, FAILED, USER_ERROR, INTERRUPTED = 0, 1, 2, 130
+_RESULT_SUFFIXES = (".h5", ".hdf5")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit status.
+
+    Parameters
+    ----------
+    argv : sequence of str, optional
+        The arguments; default those of the process.
+
+    Returns
+    -------
+    int
+        0; 1 if a figure could not be reproduced; 2 after a user's error; 130 if interrupted.
+    """
+    args = parser(_COMMANDS).parse_args(argv)
+    try:
+        return int(args.command(args))
+    except KeyboardInterrupt:
+        return _complain("interrupted", INTERRUPTED)
+    except MjcontError as error:
+        return _complain(f"error: {error}", USER_ERROR)
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        return _complain(f"error: {place}{error.strerror or error}", USER_ERROR)
+
+
+def say(text: str = "") -> None:
+    """Print a line at once; when nobody reads any more, go on in silence, so that results are still stored."""
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _complain(message: str, status: int) -> int:
+    print(f"mjcont: {' '.join(message.split())}", file=sys.stderr)
+    return status
+
+
+# -- commands ----------------------------------------------------------------------------------------------
+
+
+def _inspect(args: argparse.Namespace) -> int:
+    if _is_result(args.model):
+        say(str(_load(args.model)))
+    else:
+        from mjcont.mechanism.mechanism import Mechanism
+
+        with _warnings_as_lines():
+            mechanism = Mechanism.from_xml(args.model, friction=args.friction or FRICTION[0])
+        say(str(mechanism))
+    return OK
+
+
+def _run(args: argparse.Namespace) -> int:
+    from mjcont.commands.progress import Reporter, Table
+    from mjcont.studies.study import interruption, load_study, run_study
+
+    with _warnings_as_lines():
+        study = load_study(args.study, friction=args.friction)
+    if args.quiet:
+        reporter = Reporter()
+    else:
+        terminal = sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+        reporter = Table(say, sys.stderr if terminal else None)
+    results = run_study(study, args.out, reporter)
+    ended = interruption(study, results, args.out)
+    return _complain(ended, INTERRUPTED) if ended else OK
+
+
+def _check(args: argparse.Namespace) -> int:
+    from mjcont.studies.study import check_study, summary
+
+    with _warnings_as_lines():
+        study, problems = check_study(args.study, friction=args.friction)
+    for line in problems:
+        print(line, file=sys.stderr)
+    if study is not None:
+        say(summary(study))
+    return USER_ERROR if problems else OK
+
+
+def _sweep(args: argparse.Namespace) -> int:
+    from mjcont.commands.sweep import run
+
+    with _warnings_as_lines():
+        run(args, say)
+    return OK
+
+
+def _plot(args: argparse.Namespace) -> int:
+    from mjcont.drawing.plotting import plot, save_figure
+
+    branches = [_load_curve(file) for file in args.files]
+    for file, branch in zip(args.files, branches, strict=True):
+        for column in (args.x, args.y):
+            with _naming(file):
+                _ = branch[column]
+    out = Path(args.out) if args.out else Path(args.files[0]).with_suffix(".png")
+    axes: Any = plot(*branches, x=args.x, y=args.y, labels=args.labels, degrees=args.degrees)
+    save_figure(axes.figure, out)
+    say(f"plot: {out}")
+    return OK
+
+
+def _sensitivities(args: argparse.Namespace) -> int:
+    from mjcont.influence.sensitivities import sensitivities
+
+    branch = _load_branch(args.file)
+    with _naming(args.file):
+        found = sensitivities(branch.point(args.label), args.parameter, quantities=args.quantity)
+    say(str(found))
+    if args.csv:
+        say(f"written: {found.to_csv(args.csv)}")
+    if args.out:
+        from mjcont.drawing.plotting import save_figure
+
+        say(f"plot: {save_figure(found.plot().figure, args.out)}")
+    return OK
+
+
+def _view(args: argparse.Namespace) -> int:
+    from mjcont.drawing.viewer import view
+
+    point = _point_of_result(args) if _is_result(args.model) else _point_of_model(args)
+    if point is not None:
+        say(str(point))
+        view(point.problem, point.state, point.parameters)
+        return OK
+    from mjcont.mechanism.mechanism import Mechanism
+
+    with _warnings_as_lines():
+        mechanism = Mechanism.from_xml(args.model)
+    view(mechanism, mechanism.start_state(args.keyframe), mechanism.values())
+    return OK
+
+
+def _reproduce(args: argparse.Namespace) -> int:
+    from mjcont.paper.reproduce import reproduce
+
+    result = reproduce(args.figures or None, args.out, jobs=args.jobs, force=args.force, say=say)
+    return FAILED if result.failed else OK
+
+
+def _report(args: argparse.Namespace) -> int:
+    from mjcont.paper.extended import report
+
+    options = {"extended": args.extended, "only": args.only, "jobs": args.jobs, "force": args.force}
+    return FAILED if report(args.out, **options, say=say).failed else OK
+
+
+def _bush(args: argparse.Namespace) -> int:
+    from mjcont.models.bushes import bushed_xml
+    from mjcont.models.loading import compile_spec, parse
+
+    out = Path(args.out)
+    if out.exists() and Path(args.model).exists() and out.samefile(args.model):
+        raise MjcontError(f"'{out}' is the model itself: give the new one a name of its own")
+    with _warnings_as_lines():
+        text = bushed_xml(
+            args.model, args.joint, args.connect, stiffness=args.stiffness, damping=args.damping, frame=args.frame
+        )
+    compile_spec(parse(text, out.resolve().parent, f"'{out}' (files beside the model must be beside it, too)"))
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text(text, encoding="utf-8")
+    say(f"written: {out}")
+    return OK
+
+
+def _export(args: argparse.Namespace) -> int:
+    result = _load(args.file)
+    out = Path(args.out) if args.out else Path(args.file).with_suffix(".csv")
+    say(f"written: {result.to_csv(out, degrees=args.degrees)}")
+    return OK
+
+
+# -- points and files --------------------------------------------------------------------------------------
+
+
+def _is_result(name: str) -> bool:
+    return Path(name).suffix.lower() in _RESULT_SUFFIXES
+
+
+@contextmanager
+def _warnings_as_lines() -> Iterator[None]:
+    """Print each warning for the user as one line, once the work that gives it is done."""
+    import warnings
+
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", UserWarning)
+        yield
+    for warning in caught:
+        print(f"mjcont: warning: {' '.join(str(warning.message).split())}", file=sys.stderr)
+
+
+@contextmanager
+def _naming(file: str) -> Iterator[None]:
+    """Let an error name the file that it is about."""
+    try:
+        yield
+    except MjcontError as error:
+        raise type(error)(f"'{file}': {error}") from error
+
+
+def _load(path: str) -> Any:
+    from mjcont.results.files import load
+
+    return load(path)
+
+
+def _load_curve(path: str) -> Any:
+    """Read a branch, a locus or a load path."""
+    result = _load(path)
+    for mark, words in (("velocities", "time history"), ("cases", "sweep")):
+        if hasattr(result, mark):
+            raise ResultFileError(f"'{path}' holds a {words}: inspect and export take it, this command takes curves")
+    return result
+
+
+def _load_branch(path: str) -> Branch:
+    """Read a result that has points of its own to be named."""
+    from mjcont.results.branch import Branch
+
+    result = _load_curve(path)
+    if not isinstance(result, Branch):
+        raise ResultFileError(f"'{path}' holds a load path: this command takes a branch or a locus")
+    return result
+
+
+def _point_of_model(args: argparse.Namespace) -> Point | None:
+    """Return the equilibrium that --at asks for, or None for a pose as it stands in the model."""
+    from mjcont.curves.continuation import find_equilibrium
+    from mjcont.mechanism.mechanism import Mechanism
+
+    if args.label:
+        raise MjcontError("--label goes with a result file; for a model use --keyframe or --at")
+    if not args.at:
+        return None
+    with _warnings_as_lines():
+        mechanism = Mechanism.from_xml(args.model)
+    return find_equilibrium(
+        mechanism, {name: _value(name, text, mechanism.parameter(name).unit) for name, text in args.at}
+    )
+
+
+def _point_of_result(args: argparse.Namespace) -> Point:
+    """Return the point of a stored branch that --label or --at asks for, or its start."""
+    from mjcont.results.branch import show
+
+    if args.keyframe:
+        raise MjcontError("--keyframe goes with a model; for a result file use --label or --at")
+    branch = _load_branch(args.model)
+    if branch.problem is None:
+        raise ResultFileError(f"result file '{args.model}' holds no model to view")
+    if args.label:
+        with _naming(args.model):
+            return branch.point(args.label)
+    if not args.at:
+        return branch.row(branch.start_index)
+    if len(args.at) > 1:
+        raise MjcontError("a point of a result file has one --at, such as --at F=20")
+    ((name, text),) = args.at
+    with _naming(args.model):
+        points = branch.at(**{name: _value(name, text, branch.unit(name))})
+    if not points:
+        low, high = (show(end, branch.unit(name)) for end in (branch[name].min(), branch[name].max()))
+        raise MjcontError(f"'{args.model}' has no point with {name} = {text}: {name} goes from {low} to {high}")
+    if len(points) > 1:
+        say(f"{len(points)} points have {name} = {text}; this is the first stable one, or the first of all:")
+    return next((p for p in points if p.stability == "stable"), points[0])
+
+
+def _value(name: str, text: str, unit: str) -> float:
+    from mjcont.studies.schema import quantity
+
+    try:
+        return quantity(text, unit)
+    except ValueError as error:
+        raise MjcontError(f"--at {name}: {error}") from error
+
+
+def _animate(args: argparse.Namespace) -> int:
+    return cli_animate.run(args, say)
+
+
+_COMMANDS = {
+    "inspect": _inspect,
+    "run": _run,
+    "check": _check,
+    "sweep": _sweep,
+    "plot": _plot,
+    "animate": _animate,
+    "sensitivities": _sensitivities,
+    "view": _view,
+    "reproduce": _reproduce,
+    "report": _report,
+    "bush": _bush,
+    "export": _export,
+}

@@ -1,0 +1,345 @@
+"""From traced curves to results: rows in order, spectra, labelled special points, provenance."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib import metadata
+from typing import Any
+
+import numpy as np
+
+from mjcont.curves.rows import CROSSINGS, CurveRows, curve_rows
+from mjcont.errors import StartError
+from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import Local, System
+from mjcont.numerics.points.events import Located
+from mjcont.numerics.spectra.spectrum import Spectrum
+from mjcont.numerics.spectra.stability import local_spectrum
+from mjcont.numerics.step.arclength import CurvePoint, first_point, turned_back
+from mjcont.numerics.walk.steps import End, Status
+from mjcont.numerics.walk.trace import Trace, Walker, trace
+from mjcont.results.branch import Branch, Column, Point, SpecialPoint, show
+from mjcont.results.files import special_from_row
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A special point as it is found, while its curve is still being followed: it has no label yet."""
+
+    kind: str
+    parameters: Mapping[str, float]
+    observables: Mapping[str, float]
+
+
+Progress = Callable[[int, Found | None], None]
+_VECTOR_NAMES = ("v", "w")
+
+
+def make_point(problem: Any, x: Array, values: Values) -> Point:
+    """Return the Point of an equilibrium, with observables, eigenvalues and stability."""
+    s = local_spectrum(Local(problem, x, values, (), False))
+    measured = problem.measure(x[None], values)[0]
+    observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
+    return Point(dict(values), observables, x.copy(), s.eigenvalues, s.stability, s.n_unstable, problem, units(problem))
+
+
+def units(problem: Any) -> dict[str, str]:
+    """Return the units of all parameters and observables."""
+    found = {p.name: p.unit for p in problem.parameters.values()}
+    return found | {o.name: o.unit for o in problem.observables.values()}
+
+
+def _found(system: System, item: Located) -> Found:
+    problem: Any = system.problem
+    values = system.values(item.point.y)
+    measured = problem.measure(item.point.x[None], values)[0]
+    observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
+    return Found(item.kind, {n: values[n] for n in system.names}, observables)
+
+
+def reporter(system: System, progress: Progress | None) -> Callable[[CurvePoint | Located | End], None] | None:
+    """Return what a trace calls for each item, so that `progress` hears of points and special points."""
+    if progress is None:
+        return None
+    count = 0
+
+    def report(item: CurvePoint | Located | End) -> None:
+        nonlocal count
+        if not isinstance(item, End):
+            count += isinstance(item, CurvePoint)
+            progress(count, _found(system, item) if isinstance(item, Located) else None)
+
+    return report
+
+
+def run_directions(
+    walker: Walker, x: Array, y: Array, directions: Sequence[float], progress: Progress | None, lead: int = 0
+) -> list[Trace]:
+    """Walk from a start in the directions given; a closed curve or an interrupt ends after the first.
+
+    The direction is that in which the free parameter `lead` first moves.
+    """
+    traces: list[Trace] = []
+    report = reporter(walker.system, progress)
+    for direction in directions:
+        if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
+            break
+        with np.errstate(all="ignore"):  # a state that overflows fails its step; that is reported as such
+            first: CurvePoint | str
+            if walker.long is not None and traces and traces[0].points:
+                first = turned_back(walker.system, traces[0].points)
+            else:
+                first = first_point(walker.system, x, y, direction, walker.settings, lead)
+            if isinstance(first, str):
+                traces.append(Trace([], [], End(Status.NO_START, f"the curve could not be entered: {first}")))
+                continue
+            traces.append(trace(walker, first, report))
+    return traces
+
+
+def collect(
+    kind: str,
+    system: System,
+    traces: Sequence[Trace],
+    directions: Sequence[float],
+    origin: str,
+    settings: Settings,
+    neutral: Sequence[Located] = (),
+    notes: Sequence[str] = (),
+) -> Branch:
+    """Join the directions of a curve into a branch, special points in their places.
+
+    The branch is stored from the end reached when the parameter first falls, so labels count along it.
+    """
+    rows: list[tuple[CurvePoint, Located | None]] = []
+    start_index = 0
+    for run, direction in zip(traces, directions, strict=False):
+        ordered = ordered_rows(run)
+        if direction < 0:
+            rows = ordered[::-1]
+            start_index = max(len(rows) - 1, 0)
+        else:
+            rows += ordered[1:] if rows else ordered
+    problem = system.problem
+    if not rows:
+        raise StartError(f"{problem.name}: " + "; ".join(t.end.message for t in traces))  # type: ignore[attr-defined]
+    start = rows[start_index][0]
+    table = completed(kind, system, rows, settings, traces)
+    start_index = next(i for i, p in enumerate(table.points) if p is start)
+    return build_branch(kind, table, ends_of(traces), origin, start_index, settings, neutral, notes)
+
+
+def ends_of(traces: Sequence[Trace]) -> list[tuple[str, str]]:
+    """Return how the directions of a curve ended: status and sentence of each."""
+    return [(t.end.status.value, t.end.message) for t in traces]
+
+
+def completed(
+    kind: str,
+    system: System,
+    rows: Sequence[tuple[CurvePoint, Located | None]],
+    settings: Settings,
+    traces: Sequence[Trace],
+) -> CurveRows:
+    """Return the rows of a curve, with rows between its points unless it is a locus or the user stopped it.
+
+    An interrupt meanwhile keeps the points, and ends the last of the curve's traces.
+    """
+    if kind == "equilibria" and not any(t.end.status is Status.INTERRUPTED for t in traces):
+        try:
+            return curve_rows(system, rows, settings.chord)
+        except KeyboardInterrupt:
+            traces[-1].end = End(Status.INTERRUPTED, "stopped by the user before rows were laid between the points")
+    return curve_rows(system, rows, math.inf)
+
+
+def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
+    """Return points and special points of a run in order; a closed curve ends where it began."""
+    rows: list[tuple[CurvePoint, Located | None]] = [(p, None) for p in run.points]
+    rows += [(e.point, e) for e in run.special]
+    rows = sorted(rows, key=lambda r: r[0].s)
+    closed = run.end.status is Status.CLOSED and "turns" not in run.end.message
+    return [*rows, rows[0]] if closed else rows
+
+
+def build_branch(
+    kind: str,
+    rows: CurveRows,
+    ends: Sequence[tuple[str, str]],
+    origin: str,
+    start_index: int,
+    settings: Settings,
+    neutral: Sequence[Located] = (),
+    notes: Sequence[str] = (),
+) -> Branch:
+    """Return the branch of ordered rows: columns, spectra, labelled special points, provenance."""
+    system, states = rows.system, rows.states
+    problem: Any = system.problem
+    words, counts, spectra = rows.stability()
+    stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
+    crossings = [i for i, e in enumerate(rows.located) if e is not None and e.kind in CROSSINGS]
+    stability[crossings] = "marginal"
+    base = rows.values(0)
+    lead = system.names[0]
+    if len(system.free) == 1 and lead in problem.parameters:
+        measured = problem.measure_along(states, base, lead, rows.column(0))
+    else:
+        measured = problem.measure(states, [rows.values(i) for i in range(len(rows))])
+    unit_of = units(problem)
+    columns = {
+        p.name: Column(p.name, unit_of[p.name], "parameter", _frozen(rows.column(i))) for i, p in enumerate(system.free)
+    }
+    for k, name in enumerate(problem.observables):
+        if name not in columns:
+            columns[name] = Column(name, unit_of[name], "observable", _frozen(measured[:, k]))
+    branch = Branch(
+        kind=kind,
+        name=problem.name,
+        columns=columns,
+        states=_frozen(states),
+        state_labels=problem.state_labels,
+        eigenvalues=_eigenvalues(rows, spectra),  # type: ignore[arg-type]
+        stability=_frozen(stability),
+        n_unstable=_frozen(n_unstable),
+        residuals=_frozen(rows.errors),
+        special_points=(),
+        free={p.name: (p.low, p.high) for p in system.free},
+        fixed={k: v for k, v in base.items() if k not in system.names},
+        ends=ends,
+        start="",
+        settings={k: v for k, v in asdict(settings).items() if v != math.inf},
+        provenance=provenance(problem),
+        problem=problem,
+        start_index=start_index,
+        neutral_saddles=[
+            {n: v for n, v in system.values(e.point.y).items() if n in system.names} for e in neutral
+        ],
+        notes=(*notes, *_springs(rows), *_left_out(rows), *_unexplained(kind, rows, stability, n_unstable)),
+        fixed_units={k: u for k, u in unit_of.items() if k in base and k not in system.names},
+    )
+    object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows.located, spectra)))
+    object.__setattr__(branch, "start", _describe_start(branch, origin))
+    return branch
+
+
+def _springs(rows: CurveRows) -> list[str]:
+    """Return the notes on the stiffness of a mechanism's constraints, over the range of the free parameters."""
+    if not getattr(rows.system.problem, "constrained", False):
+        return []
+    from mjcont.models.springnotes import notes_on  # MuJoCo is imported only where there is a Mechanism
+
+    columns = [rows.column(i) for i in range(len(rows.system.free))]
+    ends = [int(pick(c)) for c in columns for pick in (np.argmin, np.argmax)]
+    return notes_on(rows.system.problem, [rows.values(i) for i in ends])
+
+
+def _left_out(rows: CurveRows) -> list[str]:
+    """Return a sentence on rows between points that are missing."""
+    if not rows.left_out:
+        return []
+    return [f"{rows.left_out} rows between points did not settle and are left out: chords are longer there"]
+
+
+def _eigenvalues(rows: CurveRows, spectra: Sequence[Spectrum | None]) -> Array | Callable[[], Array]:
+    """Return the eigenvalues of all rows, (N, m), or a function that computes those that are missing."""
+    known: list[Array | None] = [None if s is None else s.eigenvalues for s in spectra]
+    missing = [i for i, s in enumerate(spectra) if s is None]
+
+    def complete() -> Array:
+        for i, s in zip(missing, rows.late_spectra(missing), strict=True):
+            known[i] = s.eigenvalues
+        every = [e for e in known if e is not None]
+        out = np.full((len(every), max(len(e) for e in every)), complex(np.nan, np.nan))
+        for row, e in zip(out, every, strict=True):
+            row[: len(e)] = e
+        return _frozen(out)
+
+    return complete if missing else complete()
+
+
+def _unexplained(kind: str, rows: CurveRows, stability: Array, n_unstable: Array) -> list[str]:
+    """Return a sentence for each change of stability without a special point: several eigenvalues pass zero at once."""
+    if kind != "equilibria":
+        return []
+    found, p = [], rows.system.free[0]
+    for i in np.flatnonzero(np.diff(n_unstable)).tolist():
+        if rows.located[i] is rows.located[i + 1] is None and "marginal" not in stability[i : i + 2]:
+            between = " and ".join(p.show(p.value(float(rows.coordinates[k, 0]))) for k in (i, i + 1))
+            found.append(
+                f"{abs(n_unstable[i + 1] - n_unstable[i])} eigenvalues pass the axis together between "
+                f"{p.name} = {between}: a point of higher multiplicity, not located"
+            )
+    return found
+
+
+def _frozen(data: Any) -> Array:
+    array = np.array(data)
+    array.flags.writeable = False
+    return array
+
+
+def _special_points(
+    branch: Branch, located: Sequence[Located | None], spectra: Sequence[Spectrum | None]
+) -> list[SpecialPoint]:
+    counts: dict[str, int] = {}
+    found = []
+    for i, e in enumerate(located):
+        if e is None:
+            continue
+        counts[e.kind] = counts.get(e.kind, 0) + 1
+        label = f"{e.kind}{counts[e.kind]}"
+        known = spectra[i]
+        assert known is not None  # special points have theirs
+        row = branch.row_with(i, known.eigenvalues)
+        found.append(special_point(row, e, label, i, branch.free, branch.kind))
+    return found
+
+
+def special_point(
+    row: Point, e: Located, label: str, index: int, free: Mapping[str, tuple[float, float]], curve: str
+) -> SpecialPoint:
+    """Return the special point of a located one: scalars among its data are coefficients, arrays vectors."""
+    return special_from_row(
+        row,
+        kind=e.kind,
+        label=label,
+        index=index,
+        tolerance=e.tolerance,
+        converged=e.converged,
+        coefficients={k: v for k, v in e.data.items() if isinstance(v, float | str)},
+        vectors={k: v for k, v in e.data.items() if isinstance(v, np.ndarray)},
+        note=e.note,
+        free=free,
+        curve=curve,
+    )
+
+
+def _describe_start(branch: Branch, origin: str) -> str:
+    i = branch.start_index
+    names = [*branch.free, *(c.name for c in branch.columns.values() if c.role == "observable")]
+    shown = ", ".join(f"{n} = {show(float(branch[n][i]), branch.unit(n), 6)}" for n in names[:4])
+    return f"{shown}; {branch.stability[i]} ({origin})"
+
+
+@cache
+def _versions() -> tuple[tuple[str, str], ...]:
+    """Return the versions of what results depend on."""
+    found = [(name, metadata.version(name)) for name in ("mujoco", "numpy", "scipy")]
+    try:
+        return (*found, ("mjcont", metadata.version("mjcont")))
+    except metadata.PackageNotFoundError:
+        return (*found, ("mjcont", "not installed"))
+
+
+def provenance(problem: Any) -> dict[str, str]:
+    """Return versions and the model's hash."""
+    versions = dict(_versions())
+    mjcf = getattr(problem, "mjcf", None)
+    if mjcf is not None:
+        versions["model_sha256"] = hashlib.sha256(mjcf.encode()).hexdigest()
+    return versions

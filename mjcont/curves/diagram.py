@@ -1,0 +1,270 @@
+"""Branch switching and whole bifurcation diagrams: every branch that branch points connect, each once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mjcont.curves.collect import Progress, build_branch, completed, ends_of, ordered_rows, reporter
+from mjcont.curves.continuation import (
+    check_bounds,
+    continue_equilibria,
+    find_equilibrium,
+    make_settings,
+)
+from mjcont.curves.walkers import equilibrium_walker
+from mjcont.errors import BoundsError, MjcontError
+from mjcont.numerics.equations.newton import correct, solve
+from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import Free, System
+from mjcont.numerics.points.events import Located
+from mjcont.numerics.step.arclength import CurvePoint, point_from
+from mjcont.numerics.walk.steps import End, Status
+from mjcont.numerics.walk.trace import Trace, trace
+from mjcont.results.branch import Branch, Point, SpecialPoint
+
+_OFFSET = 1e-2
+_SAME = 1e-5
+
+
+@dataclass(frozen=True, slots=True)
+class Diagram:
+    """The branches of a bifurcation diagram, in the order in which they were found."""
+
+    branches: Sequence[Branch]
+    notes: Sequence[str] = ()
+
+    def __len__(self) -> int:
+        """Return the number of branches."""
+        return len(self.branches)
+
+    def __iter__(self) -> Iterator[Branch]:
+        """Iterate over the branches."""
+        return iter(self.branches)
+
+    def __getitem__(self, index: int) -> Branch:
+        """Return a branch."""
+        return self.branches[index]
+
+    @property
+    def special_points(self) -> list[SpecialPoint]:
+        """Return the special points of all branches; a branch point stands on each of its branches."""
+        return [p for b in self.branches for p in b.special_points]
+
+    def __str__(self) -> str:
+        """Return the summaries of all branches."""
+        lines = [f"{len(self.branches)} branches"]
+        for i, b in enumerate(self.branches, 1):
+            lines += [f"[{i}] {b}"]
+        return "\n".join([*lines, *self.notes])
+
+
+def switch_branches(
+    point: SpecialPoint,
+    bounds: tuple[float, float] | None = None,
+    *,
+    progress: Progress | None = None,
+    **options: Any,
+) -> list[Branch]:
+    """Return every branch through a branch point, each followed in both directions from it.
+
+    Parameters
+    ----------
+    point : SpecialPoint
+        A BP of a branch of equilibria.
+    bounds : (low, high), optional
+        Range of the parameter; default that of the point's branch.
+
+    Raises
+    ------
+    MjcontError
+        If the point is no branch point of equilibria, or was loaded without its problem.
+    """
+    if point.kind != "BP" or point.curve != "equilibria":
+        raise MjcontError(f"{point.label or 'this point'} is no branch point of equilibria: only those have branches")
+    if point.problem is None:
+        raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
+    settings = make_settings(options)
+    system = _system_at(point, bounds)
+    found = [_through(point, system, t, settings, progress) for t in point.vectors.get("tangents", ())]
+    return [b for b in found if b is not None]
+
+
+def _system_at(point: SpecialPoint, bounds: tuple[float, float] | None) -> System:
+    ((name, own),) = point.free.items()
+    low, high = check_bounds(point.problem, name, bounds or own)
+    if not low <= point.parameters[name] <= high:
+        value = point.parameters[name]
+        raise BoundsError(f"{point.label} has {name} = {value:g}, outside the bounds {low:g} .. {high:g}")
+    problem: Any = point.problem
+    return System(problem, problem.values(point.parameters), [Free(name, low, high, problem.parameter(name).unit)])
+
+
+def _leave(system: System, x: Array, y: Array, tangent: Array, settings: Settings) -> CurvePoint | str:
+    """Return a point a small step along a tangent from a branch point."""
+    x1, y1 = system.move(x, y, _OFFSET * tangent)
+    c = correct(system, x1, y1, tangent, None, settings)
+    if c.failure:
+        return c.failure
+    if np.linalg.norm(system.difference(c.x, c.y, x1, y1)) > 0.5 * _OFFSET:
+        return "the corrector wandered to another branch"
+    return point_from(c, tangent, _OFFSET)
+
+
+def _through(
+    point: SpecialPoint, system: System, tangent: Array, settings: Settings, progress: Progress | None
+) -> Branch | None:
+    """Return the branch through a branch point with a given tangent, or None if it cannot be entered."""
+    x, y = point.state, system.start_y()
+    lead = tangent[system.n] if abs(tangent[system.n]) > 1e-6 else tangent[np.argmax(np.abs(tangent))]
+    tangent = tangent if lead > 0 else -tangent
+    neutral: list[Located] = []
+    walker = equilibrium_walker(system, settings, neutral, {})
+    halves: list[Trace] = []
+    for sign in (-1.0, 1.0):
+        if halves and halves[0].end.status in (Status.CLOSED, Status.INTERRUPTED):
+            halves.append(Trace([], [], halves[0].end))
+            break
+        first = _leave(system, x, y, sign * tangent, settings)
+        if isinstance(first, str):
+            halves.append(Trace([], [], End(Status.NO_START, f"the branch could not be entered: {first}")))
+            continue
+        halves.append(trace(walker, first, reporter(system, progress)))
+    if not any(h.points for h in halves):
+        return None
+    local = system.local(x, y)
+    bp_point = CurvePoint(x, y, tangent, 0.0, local, system.jacobian(local, y))
+    known = {k: v for k, v in {**point.coefficients, **point.vectors}.items() if k in ("type", "c", "tangents", "w")}
+    located = Located("BP", bp_point, point.tolerance, point.converged, known)
+    for half in halves:  # a curve that closes comes back to the point it left
+        half.special = [e for e in half.special if _away(system, e.point, bp_point)]
+    minus, plus = (ordered_rows(h) if h.points else [] for h in halves)
+    rows: list[tuple[CurvePoint, Located | None]] = [*minus[::-1], (bp_point, located), *plus]
+    notes = ["its two halves are mirror images"] if _mirrored(system, minus, plus) else []
+    table = completed("equilibria", system, rows, settings, halves)
+    index = next(i for i, e in enumerate(table.located) if e is located)
+    return build_branch("equilibria", table, ends_of(halves), f"through {point.label}", index, settings, neutral, notes)
+
+
+def _away(system: System, a: CurvePoint, b: CurvePoint) -> bool:
+    return float(np.linalg.norm(system.difference(a.x, a.y, b.x, b.y))) > _SAME
+
+
+def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool:
+    """Whether two halves are images of each other: at equal parameter, equal spectra but different states."""
+    from mjcont.numerics.spectra.stability import spectrum_of
+
+    if not minus or len(minus) != len(plus):
+        return False
+    for i in (0, len(minus) // 2, len(minus) - 1):
+        a, b = minus[i][0], plus[i][0]
+        if abs(a.y[0] - b.y[0]) > 1e-6:
+            return False
+        ea, eb = spectrum_of(a).eigenvalues, spectrum_of(b).eigenvalues
+        if len(ea) != len(eb) or np.max(np.abs(np.sort_complex(ea) - np.sort_complex(eb))) > 1e-4 * np.abs(ea).max():
+            return False
+    return True
+
+
+def bifurcation_diagram(
+    problem: Any,
+    parameter: str,
+    bounds: tuple[float, float] | None = None,
+    starts: Sequence[Mapping[str, float] | Point] | Mapping[str, float] | Point | None = None,
+    *,
+    keyframes: Sequence[str] = (),
+    max_branches: int = 50,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Diagram:
+    """Return every branch that is reachable from the starts through branch points, each once.
+
+    Parameters
+    ----------
+    starts : a start (dict or point), or several; default the model's own values and pose.
+    keyframes : further starts by keyframe, all at the first start's parameters.
+    max_branches : limit on the number of branches.
+    """
+    first: Sequence[Any] = [starts] if starts is None or isinstance(starts, Mapping | Point) else list(starts)
+    tries: list[tuple[Any, str | None]] = [(s, None) for s in first] if not keyframes or starts is not None else []
+    tries += [(first[0], k) for k in keyframes]
+    branches: list[Branch] = []
+    notes: list[str] = []
+    for start, keyframe in tries:
+        if any(b.interrupted for b in branches):
+            break
+        point = find_equilibrium(problem, start, keyframe=keyframe)
+        if not any(covers(b, point) for b in branches):
+            branches.append(continue_equilibria(problem, parameter, bounds, point, progress=progress, **options))
+    queue = [p for b in branches for p in b.of_kind("BP")]
+    done: list[SpecialPoint] = []
+    while queue and not any(b.interrupted for b in branches):
+        point = queue.pop(0)
+        if any(_same(problem, point, other, bounds or point.free[parameter]) for other in done):
+            continue
+        done.append(point)
+        for branch in _new_branches(point, branches, bounds, progress, options):
+            if len(branches) >= max_branches:
+                notes.append(f"the limit of {max_branches} branches was reached")
+                return Diagram(tuple(branches), tuple(notes))
+            branches.append(branch)
+            queue += branch.of_kind("BP")
+    return Diagram(tuple(branches), tuple(notes))
+
+
+def _new_branches(
+    point: SpecialPoint,
+    branches: Sequence[Branch],
+    bounds: tuple[float, float] | None,
+    progress: Progress | None,
+    options: Mapping[str, Any],
+) -> Iterator[Branch]:
+    """Yield the branches through a point that none of `branches` contains."""
+    settings, system = make_settings(options), _system_at(point, bounds)
+    x, y = point.state, system.start_y()
+    for tangent in point.vectors.get("tangents", ()):
+        sides = [_leave(system, x, y, sign * tangent, settings) for sign in (1.0, -1.0)]
+        probes = [_as_point(system, s) for s in sides if not isinstance(s, str)]
+        if probes and all(any(covers(b, p) for b in branches) for p in probes):
+            continue
+        branch = _through(point, system, tangent, settings, progress)
+        if branch is not None:
+            yield branch
+
+
+def _as_point(system: System, p: CurvePoint) -> Point:
+    problem: Any = system.problem
+    return Point(system.values(p.y), {}, p.x, np.zeros(0, dtype=complex), "marginal", 0, problem)
+
+
+def _same(problem: Any, a: Point, b: Point, bounds: tuple[float, float]) -> bool:
+    width = bounds[1] - bounds[0]
+    moved = np.max(np.abs(problem.difference(a.state, b.state)) / problem.state_scale)
+    spread = max(abs(a.parameters[n] - b.parameters[n]) for n in a.parameters)
+    return bool(moved < _SAME and spread < _SAME * width)
+
+
+def covers(branch: Branch, point: Point) -> bool:
+    """Whether an equilibrium lies on a branch of equilibria: near one of its chords, and equal when solved for."""
+    problem: Any = branch.problem
+    ((name, (low, high)),) = branch.free.items()
+    target = (point.parameters[name] - branch[name]) / (high - low)
+    scale = problem.state_scale
+    steps = problem.difference_each(point.state, branch.states) / scale
+    z = np.column_stack([steps, target])
+    chords = z[:-1] - z[1:]
+    lengths = np.linalg.norm(chords, axis=1)
+    along = np.clip(np.einsum("ij,ij->i", z[:-1], chords) / np.maximum(lengths**2, 1e-300), 0.0, 1.0)
+    aside = np.linalg.norm(z[:-1] - along[:, None] * chords, axis=1)
+    for i in np.flatnonzero(aside < 0.05 * lengths + 1e-9):
+        chord = problem.difference(branch.states[i + 1], branch.states[i])
+        x = problem.retract(branch.states[i], along[i] * chord)
+        c = solve(System(problem, point.parameters, ()), x, np.zeros(0), reach=0.1)
+        near = not c.failure and np.max(np.abs(problem.difference(c.x, point.state)) / scale) < _SAME
+        if near or aside[i] < 1e-7:
+            return True
+    return False

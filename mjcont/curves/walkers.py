@@ -1,0 +1,91 @@
+"""What walks along curves of equilibria: detectors, the user's stops and zeros, long steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from mjcont.curves.collect import make_point
+from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import System
+from mjcont.numerics.points.corner import CornerDetector
+from mjcont.numerics.points.events import Detector, Located
+from mjcont.numerics.points.on_equilibria import (
+    BranchPointDetector,
+    HopfDetector,
+    MultipleDetector,
+    fold_detector,
+    zero_detector,
+)
+from mjcont.numerics.spectra.stability import negative_stiffness
+from mjcont.numerics.step.arclength import CurvePoint
+from mjcont.numerics.walk.longsteps import LongSteps
+from mjcont.numerics.walk.trace import Walker
+from mjcont.results.branch import Point
+
+
+def point_stop(
+    problem: Any,
+    system: System,
+    stop: Callable[[Point], str | None] | None,
+    limits: Mapping[str, tuple[float, float]],
+) -> Callable[[CurvePoint], str | None] | None:
+    """Return the function that ends a curve where the user's `stop` or a limit on a column says so."""
+    if stop is None and not limits:
+        return None
+    names = [n for n in limits if n not in problem.parameters]
+
+    def check(p: CurvePoint) -> str | None:
+        values = system.values(p.y)
+        measured = dict(zip(names, problem.measure(p.x[None], values, names)[0], strict=True)) if names else {}
+        for name, (low, high) in limits.items():
+            value = float(measured.get(name, values.get(name, 0.0)))
+            if not low <= value <= high:
+                return f"{name} = {value:.6g} left its limits {low:g} .. {high:g}"
+        return stop(make_point(problem, p.x, values)) if stop is not None else None
+
+    return check
+
+
+def equilibrium_detectors(
+    system: System, settings: Settings, neutral: list[Located], zeros: Mapping[str, float]
+) -> list[Detector]:
+    """Return the detectors of a curve of equilibria, the one that guards against other branches first."""
+    detectors: list[Detector] = [
+        BranchPointDetector(system, settings),
+        fold_detector(system, settings),
+        HopfDetector(system, settings, neutral),
+        MultipleDetector(system, settings),
+    ]
+    if getattr(system.problem, "nonsmooth", False):
+        detectors.append(CornerDetector(system, settings))
+    for name, value in zeros.items():
+        monitor = monitor_of(system.problem, name, value)
+        detectors.append(zero_detector(system, monitor, f"{name} = {value:g}", settings))
+    return detectors
+
+
+def equilibrium_walker(
+    system: System,
+    settings: Settings,
+    neutral: list[Located],
+    zeros: Mapping[str, float],
+    stop: Callable[[CurvePoint], str | None] | None = None,
+) -> Walker:
+    """Return what walks along a curve of equilibria, with long steps where points inside them are cheap.
+
+    They are where points that differ in the parameter are evaluated together, and only dampers resist velocity.
+    """
+    problem: Any = system.problem
+    cheap = getattr(problem, "passive", False) and problem.side_by_side(system.names[0])
+    long = LongSteps(system, settings, negative_stiffness) if cheap else None
+    return Walker(system, settings, equilibrium_detectors(system, settings, neutral, zeros), stop, long=long)
+
+
+def monitor_of(problem: Any, name: str, value: float) -> Callable[[Array, Values], float]:
+    """Return the function (x, p) -> column - value for an observable or parameter."""
+    if name in problem.parameters:
+        return lambda x, values: values[name] - value
+    problem.observable(name)
+    return lambda x, values: float(problem.measure(x[None], values, [name])[0, 0]) - value

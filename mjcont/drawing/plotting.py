@@ -1,0 +1,374 @@
+"""Bifurcation diagrams in matplotlib: line style by stability, marker by kind of special point, labels beside points.
+
+Matplotlib is imported inside the functions, so that `import mjcont` stays quick; pyplot never is: figures are drawn
+by the Agg canvas and need no display.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mjcont.drawing.pathplots import axis_label, draw_path
+from mjcont.errors import MjcontError
+from mjcont.numerics.equations.problem import Array
+from mjcont.results.branch import Branch, SpecialPoint, show
+from mjcont.results.files import write_atomically
+from mjcont.results.loadpaths import LoadPath
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+
+COLORS = ("#1b4f8a", "#c4541a", "#2a7d5f", "#7b3fa0", "#8a6d1b", "#b02a4a", "#4d4d4d")
+GREY = "#6e6e6e"
+LINE_STYLES: Mapping[str, Any] = {"stable": "-", "unstable": (0, (4.5, 2.0)), "marginal": (0, (1.0, 1.4))}
+# Marker and size by kind: shapes differ, so that a diagram can be read in greyscale.
+MARKERS: Mapping[str, tuple[str, float]] = {
+    "LP": ("o", 5.5),
+    "HB": ("s", 5.5),
+    "BP": ("D", 5.0),
+    "CP": ("*", 10.0),
+    "BT": ("^", 6.5),
+    "GH": ("v", 6.5),
+    "ZH": ("P", 6.5),
+    "HH": ("X", 6.5),
+    "UZ": ("x", 5.5),
+}
+STYLE: Any = {
+    "axes.axisbelow": True,
+    "axes.edgecolor": "#333333",
+    "axes.grid": True,
+    "axes.linewidth": 0.8,
+    "font.size": 9.0,
+    "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.6,
+    "legend.fontsize": 8.5,
+}
+_LABEL = "_special point"
+# Where a label is tried, best first: beside, above, below, then slanting; gaps and clearance in points.
+_SIXTEENTHS = (0, 8, 4, 12, 2, 6, 10, 14, 1, 7, 9, 15, 3, 5, 11, 13)
+_DIRECTIONS = [np.array([np.cos(k * np.pi / 8), np.sin(k * np.pi / 8)]) for k in _SIXTEENTHS]
+_GAPS = (5.0, 9.0, 14.0, 20.0)
+_CLEARANCE = 5.0
+
+
+def new_figure(
+    rows: int = 1, cols: int = 1, size: tuple[float, float] = (5.2, 3.8), **options: Any
+) -> tuple[Figure, Any]:
+    """Return a figure of `size` in inches, in the package's style, and its axes: one, or an array (rows, cols).
+
+    `options` go to `Figure.subplots`.
+    """
+    import matplotlib
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=size, layout="constrained")
+        FigureCanvasAgg(figure)
+        return figure, figure.subplots(rows, cols, **options)
+
+
+def set_panel_title(ax: Axes, text: str) -> None:
+    """Write a panel's title at its upper left."""
+    ax.set_title(text, loc="left", fontsize=9.5)
+
+
+def plot(
+    *curves: Branch | LoadPath,
+    x: str,
+    y: str,
+    ax: Axes | None = None,
+    degrees: bool = True,
+    labels: bool | Mapping[str, str] = True,
+    colors: Sequence[str] | None = None,
+    legend: Sequence[str] | bool | None = None,
+    wrap: bool = True,
+) -> Axes:
+    """Draw branches and loci: solid where stable, dashed where unstable, dotted where marginal; loci solid.
+
+    A load path is a broad line with arrows over them, its jumps are dotted arrows.
+
+    Parameters
+    ----------
+    *curves : Branch or LoadPath
+    x, y : str
+        Columns: parameters or observables.
+    ax : matplotlib Axes, optional
+        Where to draw; default a new figure, which is `plot(...).figure`. It needs no display.
+    degrees : bool
+        Draw angles in degrees.
+    labels : bool or mapping
+        Label the special points; a mapping such as `{"LP1": "FP2"}` renames some.
+    colors : sequence of matplotlib colours, optional
+        One a branch, repeated if there are fewer.
+    legend : sequence of str, or bool, optional
+        Names of the branches. By default several branches are named by what differs between them; True also
+        explains the line styles, False leaves the legend out.
+    wrap : bool
+        Break the line where an angle jumps by more than half a turn.
+
+    Raises
+    ------
+    NameLookupError
+        If a branch has no such column; the message lists those it has.
+    """
+    paths = [c for c in curves if isinstance(c, LoadPath)]
+    branches = [c for c in curves if not isinstance(c, LoadPath)]
+    _check(branches, legend, bool(paths))
+    for path in paths:
+        _ = path[x], path[y]
+    # Everything is read before anything is drawn, so that an unknown column leaves the axes as they were.
+    data = [(_column(b, x, degrees), _column(b, y, degrees), _breaks(b, (x, y)) if wrap else ()) for b in branches]
+    if ax is None:
+        _, ax = new_figure()
+    names = _names(branches, legend)
+    drawn = sum(len(_xy(line)) == 0 for line in ax.lines)
+    palette = colors or [COLORS[(drawn + i) % len(COLORS)] for i in range(len(branches))]
+    for i, (branch, (xs, ys, breaks)) in enumerate(zip(branches, data, strict=True)):
+        color = palette[i % len(palette)]
+        # An empty line carries the branch's name: its first piece may be dashed, and it counts the colours used.
+        ax.plot([], [], color=color, label=names[i] or "_branch")
+        draw_curve(ax, xs, ys, pieces(branch), color=color, breaks=breaks)
+        draw_points(ax, xs, ys, branch.special_points, labels=labels, color=color)
+    for i, path in enumerate(paths):
+        color = (colors or COLORS[1:])[(len(branches) * bool(colors) + i) % len(colors or COLORS[1:])]
+        draw_path(ax, path, x, y, degrees=degrees, color=color, labels=labels is not False and not branches)
+    ax.set_xlabel(_axis_label(curves, x, degrees))
+    ax.set_ylabel(_axis_label(curves, y, degrees))
+    if legend is True:
+        _explain_styles(ax, branches)
+    if any(not str(line.get_label()).startswith("_") for line in ax.lines) and legend is not False:
+        ax.legend(frameon=True, framealpha=0.85, edgecolor="none", fontsize=8.5)
+    place_labels(ax)
+    return ax
+
+
+def _explain_styles(ax: Axes, branches: Iterable[Branch]) -> None:
+    present = {w for b in branches if b.kind == "equilibria" for w, _, _ in pieces(b)}
+    for word in (w for w in LINE_STYLES if w in present):
+        ax.plot([], [], color=GREY, linestyle=LINE_STYLES[word], label=word)
+
+
+def pieces(branch: Branch) -> list[tuple[str, int, int]]:
+    """Return (stability, first row, last row) of the pieces of a branch; neighbours share a row. Loci are one piece."""
+    if branch.kind != "equilibria":
+        return [("stable", 0, len(branch) - 1)]
+    return split_by_stability(branch.stability, {p.index for p in branch.special_points})
+
+
+def split_by_stability(stability: Sequence[str] | Array, special: Collection[int] = ()) -> list[tuple[str, int, int]]:
+    """Return (stability, first row, last row) of the pieces between rows of one stability.
+
+    A marginal row that is special, or stands alone, only joins its neighbours. Where it cannot be told which
+    side of a change an interval belongs to, it counts as unstable.
+    """
+    words = [str(w) for w in stability]
+    last = len(words) - 1
+
+    def marginal(i: int) -> bool:
+        return 0 <= i <= last and words[i] == "marginal" and i not in special
+
+    plain = [w if w != "marginal" or (marginal(i) and (marginal(i - 1) or marginal(i + 1))) else ""
+             for i, w in enumerate(words)]
+    found: list[tuple[str, int, int]] = []
+    for i in range(last):
+        sides = {w for w in plain[i : i + 2] if w}
+        if len(sides) == 2:
+            sides -= {"marginal"}
+        word = sides.pop() if len(sides) == 1 else "unstable"
+        if found and found[-1][0] == word:
+            found[-1] = (word, found[-1][1], i + 1)
+        else:
+            found.append((word, i, i + 1))
+    return found
+
+
+def draw_curve(
+    ax: Axes,
+    xs: Array,
+    ys: Array,
+    parts: Iterable[tuple[str, int, int]],
+    *,
+    color: str,
+    width: float = 1.6,
+    breaks: Collection[int] = (),
+) -> None:
+    """Draw pieces (stability, first row, last row) of a curve; `breaks` are rows after which the line is cut."""
+    for word, first, last in parts:
+        cuts = [first - 1, *sorted(b for b in breaks if first <= b < last), last]
+        for a, b in zip(cuts, cuts[1:], strict=False):
+            rows = slice(a + 1, b + 1)
+            ax.plot(xs[rows], ys[rows], color=color, linestyle=LINE_STYLES[word], linewidth=width, label="_curve",
+                    dash_capstyle="butt", solid_capstyle="butt")
+    if len(xs) == 1:
+        ax.plot(xs, ys, color=color, marker=".", linestyle="none", label="_curve")
+
+
+def draw_points(
+    ax: Axes,
+    xs: Array,
+    ys: Array,
+    points: Iterable[SpecialPoint],
+    *,
+    labels: bool | Mapping[str, str] = True,
+    color: str = "black",
+) -> None:
+    """Draw special points (rows of xs, ys) and their labels; a point that did not converge is hollow."""
+    for p in points:
+        if p.kind == "EP":
+            continue
+        text = p.label if not isinstance(labels, Mapping) else labels.get(p.label, p.label)
+        mark(ax, xs[p.index], ys[p.index], p.kind, text if labels is not False else "", color=color,
+             hollow=not p.converged)
+
+
+def mark(
+    ax: Axes, x: float, y: float, kind: str = "LP", text: str = "", *, color: str = "black", hollow: bool = False
+) -> None:
+    """Draw one special point with its label, which `place_labels` moves off the curves."""
+    shape, size = MARKERS.get(kind, ("p", 6.0))
+    ink = GREY if kind == "UZ" else "black"
+    edge = ink if shape == "x" or hollow else "white"
+    ax.plot([x], [y], marker=shape, markersize=size, linestyle="none", color=ink, zorder=4, label="_point",
+            markerfacecolor="white" if hollow else ink, markeredgecolor=edge,
+            markeredgewidth=1.3 if edge == ink else 0.6)
+    if text:
+        note = ax.annotate(text, (x, y), (0.0, 9.0), textcoords="offset points", ha="center", va="center",
+                           fontsize=8.5, color=color, zorder=5)
+        note.set_label(_LABEL)
+
+
+def place_labels(ax: Axes) -> None:
+    """Move the labels of special points off curves, markers and each other; call it again after changing limits."""
+    notes = [t for t in ax.texts if t.get_label() == _LABEL and t.get_visible()]
+    if not notes:
+        return
+    ax.get_xlim(), ax.get_ylim()  # noqa: B018 - reading the limits makes matplotlib settle them
+    figure = ax.get_figure(root=True)
+    point = (figure.dpi if figure is not None else 72.0) / 72.0
+    ink, frame = drawn_points(ax), ax.bbox
+    taken: list[Array] = []
+    for note in notes:
+        extent = note.get_window_extent()
+        half = 0.5 * np.array([extent.width, extent.height])
+        anchor = ax.transData.transform(note.xy)  # type: ignore[attr-defined]
+        if not frame.contains(*anchor):
+            continue
+        best, cost = np.zeros(2), np.inf
+        for gap in _GAPS:
+            for d in _DIRECTIONS:
+                offset = d * (gap * point + half @ np.abs(d))
+                low, high = anchor + offset - half, anchor + offset + half
+                away = np.hypot(*np.maximum(np.maximum(low - ink, ink - high), 0.0).T).min(initial=np.inf) / point
+                clashes = sum(bool(np.all(low < b[1]) and np.all(b[0] < high)) for b in taken)
+                outside = bool(np.any(low < frame.min) or np.any(high > frame.max))
+                total = gap + 3.0 * max(_CLEARANCE - away, 0.0) + 10.0 * (away <= 0.0) + 40.0 * (clashes + outside)
+                if total < cost - 1e-9:
+                    best, cost = offset, total
+        note.set_position(tuple(best / point))
+        taken.append(anchor + best + half * np.array([[-1.0], [1.0]]))
+
+
+def _xy(line: Line2D) -> Array:
+    return np.asarray(line.get_xydata(), dtype=float).reshape(-1, 2)
+
+
+def drawn_points(ax: Axes) -> Array:
+    """Return points every two pixels along everything drawn as a line, (N, 2), in pixels."""
+    points = [np.empty((0, 2))]
+    for line in ax.lines:
+        pixels = line.get_transform().transform(_xy(line))
+        pixels = pixels[np.isfinite(pixels).all(axis=1)]
+        if len(pixels) and line.get_visible():
+            s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(pixels, axis=0).T))])
+            along = np.linspace(0.0, s[-1], min(int(s[-1] / 2.0) + 2, 20_000))
+            points.append(np.column_stack([np.interp(along, s, pixels[:, k]) for k in range(2)]))
+    return np.concatenate(points)
+
+
+def save_figure(figure: Figure, path: str | Path, *, dpi: float = 200.0) -> Path:
+    """Write a figure as PNG, SVG or PDF by the path's suffix, whole or not at all, the same bytes every time.
+
+    Raises
+    ------
+    MjcontError
+        If the suffix is another one, or the folder does not exist.
+    """
+    import matplotlib
+
+    path = Path(path)
+    dates: dict[str, dict[str, Any]] = {
+        ".png": {"Software": None},
+        ".svg": {"Date": None},
+        ".pdf": {"CreationDate": None},
+    }
+    if path.suffix.lower() not in dates:
+        raise MjcontError(f"cannot write a figure as '{path.name}': the suffix must be one of {', '.join(dates)}")
+    figure.draw_without_rendering()
+    for ax in figure.axes:
+        place_labels(ax)
+    metadata = dates[path.suffix.lower()]
+
+    def write(temporary: Path) -> None:
+        with matplotlib.rc_context({"svg.hashsalt": "mjcont"}):
+            figure.savefig(temporary, dpi=dpi, metadata=metadata)
+
+    return write_atomically(path, write)
+
+
+def _check(branches: Sequence[Any], legend: Sequence[str] | bool | None, paths: bool = False) -> None:
+    if not branches and not paths:
+        raise MjcontError("plot needs at least one branch")
+    for b in branches:
+        if not isinstance(b, Branch):
+            what = type(b).__name__
+            raise MjcontError(f"plot takes branches one by one, as in plot(branch, locus, x=..., y=...); got a {what}")
+    if isinstance(legend, str) or (isinstance(legend, Sequence) and len(legend) != len(branches)):
+        count = len(branches)
+        raise MjcontError(f"legend must be a list with a name for each branch ({count} in all), got {legend!r}")
+
+
+def _unit(branch: Branch, name: str) -> str:
+    """Return the unit of a column, also of a parameter that the branch holds fixed."""
+    if name in branch.columns or branch.problem is None:
+        return branch.units.get(name, "")
+    return str(branch.problem.parameter(name).unit)
+
+
+def _column(branch: Branch, name: str, degrees: bool) -> Array:
+    values = branch[name]
+    return np.degrees(values) if degrees and _unit(branch, name) == "rad" else values
+
+
+def _breaks(branch: Branch, names: Iterable[str]) -> set[int]:
+    """Return the rows after which an angle jumps by more than half a turn."""
+    angles = [branch[n] for n in names if _unit(branch, n) == "rad"]
+    return {int(i) for a in angles for i in np.flatnonzero(np.abs(np.diff(a)) > np.pi)}
+
+
+def _axis_label(curves: Sequence[Branch | LoadPath], name: str, degrees: bool) -> str:
+    units = (c.unit(name) if isinstance(c, LoadPath) else _unit(c, name) for c in curves)
+    return axis_label(name, next((u for u in units if u not in ("", "1")), ""), degrees)
+
+
+def _names(branches: Sequence[Branch], legend: Sequence[str] | bool | None) -> list[str]:
+    """Return the branches' names for the legend: those given, or what differs between them."""
+    if isinstance(legend, Sequence):
+        return list(legend)
+    if legend is False or (legend is None and len(branches) < 2):
+        return [""] * len(branches)
+    common = set.intersection(*(set(b.fixed) for b in branches))
+    differing = [n for n in branches[0].fixed if n in common and len({b.fixed[n] for b in branches}) > 1]
+    names = []
+    for i, b in enumerate(branches):
+        parts = [b.kind] if len({c.kind for c in branches}) > 1 else []
+        parts += [f"{n} = {show(b.fixed[n], _unit(b, n).replace('*', ' '), 4)}" for n in differing]
+        parts = parts or ([b.name] if len({c.name for c in branches}) == len(branches) else [f"branch {i + 1}"])
+        names.append(", ".join(parts))
+    return names

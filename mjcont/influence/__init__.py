@@ -1,0 +1,1 @@
+"""Influence and choice: sensitivities, maps, worst cases."""

@@ -1,0 +1,1 @@
+"""The sole owner of MjModel and MjData: parameters, forces, derivatives, readings."""

@@ -1,0 +1,180 @@
+"""Evaluations of many states of one model: batched where nothing constrains it, one by one where something does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import mujoco
+import numpy as np
+from mujoco.batch import Batch
+
+from mjcont.mechanism.kinks import Kinks, codes_at, element_name
+from mjcont.mechanism.writer import FieldWriter
+from mjcont.numerics.equations.problem import Array
+
+_CONTACT = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)
+
+
+class Rows:
+    """A batch of a fixed number of rows, evaluated on one thread (waking a second costs more than it gives)."""
+
+    def __init__(self, model: mujoco.MjModel, count: int, kinks: Kinks | None) -> None:
+        self._model, self._kinks = model, kinks
+        self._batch = Batch(model, count, nthread=1)
+        self._version = -1
+        self._qpos = self._batch.bind("qpos")
+        self._qvel = self._batch.bind("qvel")
+        self._ctrl = self._batch.bind("ctrl")
+        self._inputs: list[tuple[Array, Array]] | None = None
+        self._forces = self._batch.bind("qfrc_smooth")
+        self._acceleration = self._batch.bind("qacc")
+        self._fields: dict[str, Array] = {}
+        self._told_apart = {f: self._batch.bind(f) for f in kinks.fields} if kinks is not None else {}
+
+    def forward(
+        self, qpos: Array, qvel: Array | None, writer: FieldWriter, ctrl: Array | None = None
+    ) -> Array:
+        """Evaluate the rows' states with the writer's inputs and return qfrc_smooth, a live view (m, nv).
+
+        `ctrl` (m, nu) takes the place of the writer's controls.
+        """
+        if self._version != writer.version:
+            self._batch.set_models(self._model)
+            self._version = writer.version
+        self._qpos[:] = qpos
+        self._qvel[:] = 0.0 if qvel is None else qvel
+        if self._inputs is None:
+            self._inputs = writer.inputs.bound(self._batch)
+        writer.inputs.put_rows(self._inputs)
+        if ctrl is not None:
+            self._ctrl[:] = ctrl
+        self._batch.forward()
+        return self._forces
+
+    def acceleration(self) -> Array:
+        """Return qacc of the last evaluation, a live view (m, nv)."""
+        return self._acceleration
+
+    def field(self, name: str) -> Array:
+        """Return a field of the data, a live view (m, ...): filled by evaluations after it was first asked for."""
+        if name not in self._fields:
+            self._fields[name] = self._batch.bind(name)
+        return self._fields[name]
+
+    @property
+    def codes(self) -> Array:
+        """The smooth piece of the forces that each row of the last evaluation lies on, (m, elements)."""
+        assert self._kinks is not None
+        return self._kinks.codes(self._model, self._told_apart)
+
+    @property
+    def sides(self) -> list[bytes]:
+        """What tells apart the smooth pieces of the forces in the last evaluation, by rows."""
+        return [row.tobytes() for row in self.codes]
+
+
+class ConstrainedRows:
+    """Evaluations of a model with constraints: the forces at zero acceleration, constraint forces among them.
+
+    MuJoCo's constraint forces depend on the acceleration; at rest and in equilibrium it is zero, so equilibria are
+    where the inverse dynamics at zero acceleration ask for no force. One row after the other: the batch has no
+    inverse dynamics. Friction of contacts is left out: at rest MuJoCo's has no force, but it would add to mass and
+    damping, and call stable what only creeps.
+    """
+
+    def __init__(self, model: mujoco.MjModel, kinks: Kinks | None) -> None:
+        self._model, self._kinks = model, kinks
+        self._data = mujoco.MjData(model)
+        self.sides: list[bytes] = []
+
+    def forward(self, qpos: Array, qvel: Array | None, writer: FieldWriter, qacc: Array | None = None) -> Array:
+        """Return the forces for every row, (m, nv); `qacc` (m, nv) is zero unless given."""
+        m, d = self._model, self._data
+        out = np.empty((len(qpos), m.nv))
+        self.sides = []
+        writer.inputs.put(d)
+        for i, x in enumerate(qpos):
+            d.qpos[:] = x
+            d.qvel[:] = 0.0 if qvel is None else qvel[i]
+            d.qacc[:] = 0.0 if qacc is None else qacc[i]
+            mujoco.mj_inverse(m, d)
+            mujoco.mj_fwdActuation(m, d)
+            side = load_side(m, d)
+            self.sides.append(side if self._kinks is None else side + codes_at(self._kinks, m, d).tobytes())
+            out[i] = d.qfrc_actuator - d.qfrc_inverse
+            if d.ncon and (qvel is not None or qacc is not None):
+                out[i] -= _contact_friction(m, d)
+        return out
+
+    def accelerations(self, qpos: Array, qvel: Array, writer: FieldWriter) -> Array:
+        """Return qacc for every row, (m, nv)."""
+        m, d = self._model, self._data
+        out = np.empty((len(qpos), m.nv))
+        writer.inputs.put(d)
+        for i, x in enumerate(qpos):
+            d.qpos[:], d.qvel[:], d.qacc_warmstart[:] = x, qvel[i], 0.0
+            mujoco.mj_forward(m, d)
+            out[i] = d.qacc
+        return out
+
+    def active(self, x: Array, writer: FieldWriter) -> frozenset[str]:
+        """Return the names of the limits and contacts that carry load at rest, and of what `kinks` finds busy."""
+        m, d = self._model, self._data
+        writer.inputs.put(d)
+        d.qpos[:], d.qvel[:], d.qacc[:] = x, 0.0, 0.0
+        mujoco.mj_inverse(m, d)
+        found = frozenset(_loaded(m, d))
+        if self._kinks is None:
+            return found
+        mujoco.mj_fwdActuation(m, d)
+        return found | self._kinks.names(m, codes_at(self._kinks, m, d))
+
+
+def _contact_friction(m: mujoco.MjModel, d: mujoco.MjData) -> Array:
+    """Return the part of the contact forces that does not act along the normals, as generalised forces (nv,)."""
+    along = np.zeros(d.nefc)
+    elliptic = m.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+    for first, dim in zip(d.contact.efc_address, d.contact.dim, strict=True):
+        if first < 0 or dim == 1:
+            continue
+        if elliptic:
+            along[first + 1 : first + dim] = d.efc_force[first + 1 : first + dim]
+        else:  # a pyramid's edges come in pairs that share the normal force
+            pairs = d.efc_force[first : first + 2 * (dim - 1)].reshape(-1, 2)
+            along[first : first + 2 * (dim - 1)] = (pairs - pairs.mean(axis=1, keepdims=True)).ravel()
+    out = np.zeros(m.nv)
+    mujoco.mj_mulJacTVec(m, d, out, along)
+    return out
+
+
+def load_side(m: mujoco.MjModel, d: mujoco.MjData) -> bytes:
+    """Return what tells apart the smooth pieces of the forces: the constraints that carry load."""
+    loaded = d.efc_force != 0.0
+    kind, index = d.efc_type[loaded], d.efc_id[loaded]
+    if d.ncon:  # a contact's number depends on the others: its geoms do not
+        touching = kind >= _CONTACT
+        pair = d.contact.geom[index[touching]]
+        index[touching] = pair[:, 0] * m.ngeom + pair[:, 1]
+    return kind.tobytes() + index.tobytes()
+
+
+def _loaded(m: mujoco.MjModel, d: mujoco.MjData) -> Iterator[str]:
+    """Yield the names of the limits and contacts that carry load; two geoms may touch at several points."""
+    kinds = mujoco.mjtConstraint
+    points: dict[tuple[int, ...], set[int]] = {}
+    for r in range(d.nefc):
+        kind, index = kinds(d.efc_type[r]), int(d.efc_id[r])
+        if d.efc_force[r] <= 0.0:
+            continue
+        if kind == kinds.mjCNSTR_LIMIT_JOINT:
+            side = "lower" if d.qpos[m.jnt_qposadr[index]] < np.mean(m.jnt_range[index]) else "upper"
+            yield f"{side} limit of {element_name(m, mujoco.mjtObj.mjOBJ_JOINT, index)}"
+        elif kind == kinds.mjCNSTR_LIMIT_TENDON:
+            side = "lower" if d.ten_length[index] < np.mean(m.tendon_range[index]) else "upper"
+            yield f"{side} limit of {element_name(m, mujoco.mjtObj.mjOBJ_TENDON, index)}"
+        elif kind.name.startswith("mjCNSTR_CONTACT"):
+            points.setdefault(tuple(int(g) for g in d.contact[index].geom), set()).add(index)
+    for geoms, found in points.items():
+        first, second = (element_name(m, mujoco.mjtObj.mjOBJ_GEOM, g) for g in geoms)
+        for k in range(len(found)):
+            yield f"contact{f' {k + 1}' if k else ''} of {first} and {second}"

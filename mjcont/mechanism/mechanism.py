@@ -1,0 +1,397 @@
+"""`Mechanism`: the sole owner of an MjModel/MjData pair, seen as an equilibrium problem.
+
+The residual is M(q) qacc at zero velocity (`qfrc_smooth`), the equations of motion near an equilibrium are
+
+    M dq'' + C dq' + K dq = 0,   K = -d tau/dq,  C = -d tau/dv,
+
+with centred differences in the tangent space, all columns in one batched call. A Mechanism never remembers
+parameter values: they are arguments of every method.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+from weakref import WeakSet
+
+import mujoco
+import numpy as np
+
+from mjcont.errors import ParameterError, unknown_name
+from mjcont.mechanism import rigid
+from mjcont.mechanism.derivatives import Derivatives
+from mjcont.mechanism.evaluation import Evaluator
+from mjcont.mechanism.geometry import Geometry, refuse_overlap
+from mjcont.mechanism.observables import model_observables
+from mjcont.mechanism.parameters import Declaration, collect_parameters, declared_parameter
+from mjcont.mechanism.paths import bush_names
+from mjcont.mechanism.readings import Observed, Readings
+from mjcont.mechanism.writer import FieldWriter
+from mjcont.models import features, loading
+from mjcont.models.mjcf import exact_text
+from mjcont.numerics.equations.differences import Stencil
+from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Values
+from mjcont.results.quantities import Parameter
+
+_OWNED = ("_loaded", "_model", "_writer", "_readings", "_evaluator", "nonsmooth", "_derivatives")
+
+
+class Mechanism(Observed):
+    """A MuJoCo model as an equilibrium problem f(q, p) = 0 with named parameters and observables.
+
+    Use `Mechanism.from_xml`, `from_spec` or `from_model` to make one.
+
+    Attributes
+    ----------
+    name : str
+    n : int
+        Degrees of freedom (nv).
+    parameters : dict of str to Parameter
+        Declared in the model, every control, gravity_angle and load_factor.
+    observables : dict of str to Observable
+        Every sensor and joint position.
+    declared : dict
+        Parameters declared in Python or by path, as results store them.
+    keyframes : dict of str to (nq,) array
+    notes : tuple of str
+        What is treated in a way that its user should know of: friction, activations.
+    state_scale : (nv,) array
+        1 rad for rotations, the model's size in metres for translations.
+    mjcf : str or None
+        The model's text; None for a Mechanism made from a compiled model.
+    notes : tuple of str
+        What the user should know about the model as loaded, such as files that are not there.
+    """
+
+    second_order = True
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        mjcf: str | None = None,
+        friction: str = "frictionless",
+        notes: Sequence[str] = (),
+        geometry: Geometry | None = None,
+    ) -> None:
+        features.refuse_unsupported(model)
+        self.notes = (*notes, *features.friction_notes(model, friction), *features.activation_notes(model))
+        model = loading.owned_copy(model)
+        self.mjcf = mjcf
+        self.name = loading.model_name(model)
+        self.nq, self.n = model.nq, model.nv
+        self.qpos0 = model.qpos0.copy()
+        self._flat = loading.coordinates_are_flat(model)
+        self.state_scale = loading.state_scale(model)
+        self._geometry = geometry or Geometry(None)
+        self.parameters = collect_parameters(loading.evaluation_copy(loading.copy_model(model)), self._geometry)
+        self.observables = model_observables(model)
+        self.declared: dict[str, Any] = {}
+        self.keyframes = loading.keyframes(model)
+        self.constrained, self._passive = loading.is_constrained(model), features.passive(model)
+        self._held: tuple[str, ...] = ()
+        self._kin: WeakSet[Mechanism] = WeakSet((self,))  # this and its copies with held modes: one set of models
+        self._own(self._geometry.with_layout(model, self.parameters))
+
+    def _own(self, model: mujoco.MjModel, evaluations: int = 0) -> None:
+        """Take a model: one copy for residuals, one for observables, one as loaded."""
+        self._loaded, self._model = loading.copy_model(model), loading.evaluation_copy(model)
+        self._writer = self.writer(self._model)
+        self._readings = Readings(model, self.parameters, self.writer(model), self.constrained)
+        self._evaluator = Evaluator(self._model, self._writer, self.constrained, evaluations)
+        self.nonsmooth = self._evaluator.nonsmooth
+        self._derivatives = Derivatives(
+            self._evaluator, self._writer, self.parameters, self.state_scale, self.retract_each
+        )
+        for other in self._kin:
+            other.__dict__.update({name: self.__dict__[name] for name in _OWNED})
+
+    # -- making one ----------------------------------------------------------------------------------------
+
+    @classmethod
+    def from_xml(cls, source: str | Path, *, friction: str = "frictionless") -> Mechanism:
+        """Load MJCF from a path, from XML text, or by the name of a model that ships with mjcont.
+
+        Friction carries no load at rest in MuJoCo, where it creeps. With `friction` "frictionless" it is left out of
+        equilibria and their stability, with a ModelWarning for dry friction; with "refuse" it is an error.
+
+        Raises
+        ------
+        ModelError
+            If the file does not exist, MuJoCo rejects it, or the model has a feature that cannot be treated.
+        """
+        model, text, notes, geometry = loading.load(source)
+        return cls(model, text, friction, notes, geometry)
+
+    @classmethod
+    def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
+        """Take an `MjSpec` (copied)."""
+        return cls(loading.compile_spec(spec), exact_text(spec), friction, geometry=Geometry(spec.copy()))
+
+    @classmethod
+    def from_model(cls, model: mujoco.MjModel, *, friction: str = "frictionless") -> Mechanism:
+        """Take a compiled model (copied). Its results cannot carry the MJCF: load them with `problem=`."""
+        return cls(model, friction=friction)
+
+    # -- parameters ----------------------------------------------------------------------------------------
+
+    def declare(
+        self,
+        name: str,
+        *paths: str,
+        unit: str = "",
+        bounds: tuple[float, float] | None = None,
+        function: Callable[[Any, float], None] | None = None,
+        value: float | None = None,
+    ) -> Parameter:
+        """Declare a named parameter and return it.
+
+        Parameters
+        ----------
+        paths : str
+            Fields such as `joint:hip.stiffness`, or `spec:geom:rod.size[0]`, with which the model is compiled anew.
+        function : callable, optional
+            Instead of paths: `function(spec, value)` edits a copy of the `MjSpec`; `value` is the parameter's own.
+
+        Raises
+        ------
+        ParameterError
+            If the name is in use, a path matches nothing, or its targets disagree with each other in the loaded model.
+        """
+        if name in self.parameters:
+            raise ParameterError(f"parameter '{name}' is declared twice")
+        given = Declaration(name, unit, bounds, tuple(paths), function, value)
+        parameter = declared_parameter(self._model_as_loaded(), self._geometry, given)
+        self.parameters[name] = parameter
+        self.declared[name] = given.record(parameter)
+        if parameter.kind == "spec" and self._loaded.body_simple.any():
+            self._own(self._geometry.with_layout(self._loaded, self.parameters), self.evaluations)
+        return parameter
+
+    def parameter(self, name: str) -> Parameter:
+        """Return the parameter called `name`; a path such as `joint:hip.stiffness` is one, too."""
+        if name not in self.parameters:
+            if ":" not in name:
+                raise unknown_name("parameter", name, self.parameters)
+            self.declare(name, name)
+        return self.parameters[name]
+
+    def values(self, given: Values | None = None) -> dict[str, float]:
+        """Return a value for every parameter: those given, the model's own for the others.
+
+        Raises
+        ------
+        NameLookupError
+            If a name is unknown; close matches and all valid names are listed.
+        BoundsError, ParameterError
+            If MuJoCo would clamp a control there, or the model does not compile.
+        """
+        given = given or {}
+        for name, value in given.items():
+            self.parameter(name).check(value)
+        merged = {name: p.value for name, p in self.parameters.items()}
+        merged.update({name: float(v) for name, v in given.items()})
+        if any(self.parameters[name].kind == "spec" for name in given):
+            self._geometry.model(self.parameters, merged)
+        return merged
+
+    def _model_as_loaded(self) -> mujoco.MjModel:
+        self._writer.write(self.parameters, self.values())
+        return self._model
+
+    # -- residual and derivatives ----------------------------------------------------------------------------
+
+    def residual(self, x: Array, values: Values) -> Array:
+        """Return the generalised forces M qacc at rest, (nv,), in N and N m."""
+        self._writer.write(self.parameters, values)
+        return self._evaluator.forces(x[None])[0].copy()
+
+    def residuals(self, x: Array, values: Values, steps: Array) -> Array:
+        """Return the residual at x moved by each row of `steps` (m, nv), shape (m, nv)."""
+        self._writer.write(self.parameters, values)
+        return self._evaluator.forces(self.retract_each(x, steps)).copy()
+
+    def side_by_side(self, name: str) -> bool:
+        """Whether states that differ in a parameter are evaluated in one batch: the forces are smooth, it a control."""
+        return not self._held and self._derivatives.side_by_side(name)
+
+    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return the residual at states (m, nq), a parameter having a value of its own in each (m,), shape (m, nv)."""
+        return self._derivatives.along(states, values, name, column)
+
+    def linearize_along(
+        self, states: Array, values: Values, name: str, column: Array
+    ) -> tuple[Array, Array, Array] | None:
+        """Return the residual and its derivatives in the state and in a parameter; arguments as `residuals_along`."""
+        return None if self._held else self._derivatives.linearize_along(states, values, name, column)
+
+    def acceleration(self, qpos: Array, qvel: Array, values: Values | None = None) -> Array:
+        """Return qacc at a state of motion, (nv,), in m/s^2 and rad/s^2."""
+        self._writer.write(self.parameters, self.values(values))
+        return self._evaluator.accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
+
+    def linearize(
+        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
+    ) -> Linearization:
+        """Return the residual with its derivatives in the state and in the parameters `wrt`."""
+        refuse_overlap(self.parameters, values, tuple(wrt))
+        found = self._derivatives.linearize(x, values, wrt, accurate, spans)
+        if not self._held:
+            return found
+        mass = self._evaluator.mass(x)
+        held = rigid.rate(found.jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
+        return Linearization(found.f, found.jac - held, found.par)
+
+    def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
+        """Return the difference rule and step for derivatives in a parameter."""
+        return self._derivatives.rule(name, value, span)
+
+    def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
+        """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
+        self._writer.write(self.parameters, values)
+        mass, damping = self._evaluator.mass(x), self._evaluator.damping(x, self.state_scale)
+        if self._held:
+            # critical damping: a held mode decays and can never look unstable or marginal
+            damping = damping + 2.0 * rigid.rate(jac, mass) * rigid.holding(mass, self._held_directions(x))
+        return Pencil(mass, damping, -jac)
+
+    @property
+    def passive(self) -> bool:
+        """Whether damping at rest is symmetric and positive semidefinite in every state (`features.passive`)."""
+        return self._passive and not self.nonsmooth
+
+    def pencils(self, states: Array, values: Sequence[Values], jacs: Sequence[Array]) -> list[Pencil]:
+        """Return `pencil` at many equilibria of a passive mechanism."""
+        loads = {n for n, p in self.parameters.items() if p.kind in ("control", "gravity")}
+        first = values[0]
+        if self._held or any(v[n] != first[n] for v in values for n in first.keys() - loads):
+            return [self.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]
+        self._writer.write(self.parameters, first)
+        evaluator, scale = self._evaluator, self.state_scale
+        return [Pencil(evaluator.mass(x), evaluator.damping(x, scale), -j) for x, j in zip(states, jacs, strict=True)]
+
+    def first_order(self, x: Array, values: Values, steps: Array) -> Array:
+        """Return (v, qacc) at steps (m, 2 nv) of position and velocity around rest at x, shape (m, 2 nv)."""
+        self._writer.write(self.parameters, values)
+        velocity = steps[:, self.n :]
+        return np.hstack([velocity, self._evaluator.accelerations(self.retract_each(x, steps[:, : self.n]), velocity)])
+
+    def periods(self, x: Array, values: Values) -> Array:
+        """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
+        return rigid.full_turns(self, x, values)
+
+    # -- rigid-body zero modes -------------------------------------------------------------------------------
+
+    def rigid_modes(self, x: Array, values: Values, among: Sequence[str] | None = None) -> tuple[str, ...]:
+        """Return the names of the rigid-body motions that no force opposes near a state, of all or `among` some."""
+        return rigid.zero_modes(self.holding(()), self._model, self._evaluator.position, x, values, among)
+
+    @property
+    def held(self) -> tuple[str, ...]:
+        """The rigid-body modes that are held."""
+        return self._held
+
+    def rigid_directions(self, x: Array) -> dict[str, Array]:
+        """Return the tangent vectors (nv,) along the held rigid-body modes, by name."""
+        return rigid.directions(self._model, self._evaluator.position(x), self._held)
+
+    def holding(self, modes: Sequence[str]) -> Mechanism:
+        """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""
+        held = copy.copy(self)
+        held._held = tuple(modes)
+        self._kin.add(held)
+        return held
+
+    def admissible(self, x: Array, step: Array) -> Array:
+        """Return a tangent step without its part along held rigid-body modes, which nothing else would correct."""
+        return rigid.without_modes(step, self._evaluator.mass(x), self._held_directions(x)) if self._held else step
+
+    def _held_directions(self, x: Array) -> Array:
+        found = list(self.rigid_directions(x).values())
+        return np.column_stack(found) if found else np.zeros((self.n, 0))
+
+    # -- the manifold ----------------------------------------------------------------------------------------
+
+    def retract(self, x: Array, step: Array) -> Array:
+        """Return qpos moved by a tangent step, quaternions normalised."""
+        if self._flat:
+            return x + step
+        moved = x.copy()
+        mujoco.mj_integratePos(self._model, moved, step, 1.0)
+        return moved
+
+    def difference(self, x1: Array, x0: Array) -> Array:
+        """Return the tangent step (nv,) from x0 to x1."""
+        if self._flat:
+            return x1 - x0
+        step = np.empty(self.n)
+        mujoco.mj_differentiatePos(self._model, step, 1.0, x0, x1)
+        return step
+
+    def difference_each(self, ends: Array, starts: Array) -> Array:
+        """Return the tangent steps (m, nv) that take states (m, nq), or one (nq,), to others."""
+        if self._flat:
+            return ends - starts
+        ends, starts = np.broadcast_arrays(ends, starts)
+        return np.array([self.difference(b, a) for b, a in zip(ends, starts, strict=True)])
+
+    def retract_each(self, states: Array, steps: Array) -> Array:
+        """Return states (m, nq), or one (nq,), moved by the rows of tangent steps (m, nv)."""
+        if self._flat:
+            return states + steps
+        every = np.broadcast_to(states, (len(steps), self.nq))
+        return np.array([self.retract(x, s) for x, s in zip(every, steps, strict=True)])
+
+    def active(self, x: Array, values: Values) -> frozenset[str]:
+        """Return the names of the limits and contacts that carry load at rest."""
+        self._writer.write(self.parameters, values)
+        return self._evaluator.active(x)
+
+    @property
+    def failure(self) -> str:
+        """Why the model does not compile at the values evaluated last; empty where it does."""
+        return self._writer.failure or self._derivatives.failure
+
+    @property
+    def evaluations(self) -> int:
+        """Forward evaluations so far; every row of a batch counts as one."""
+        return self._evaluator.count
+
+    # -- states ----------------------------------------------------------------------------------------------
+
+    def simulation_model(self) -> mujoco.MjModel:
+        """Return a copy of the model as loaded, for time histories; diverging motion is not reset silently."""
+        return loading.simulation_copy(self._loaded)
+
+    def writer(self, model: mujoco.MjModel) -> FieldWriter:
+        """Return what writes parameter values into a copy of the model."""
+        return FieldWriter(model, self.parameters, self._geometry)
+
+    def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
+        """Return a start: the state given, or a keyframe's, or qpos0.
+
+        Raises
+        ------
+        NameLookupError, ParameterError
+            If there is no such keyframe, or `state` has the wrong shape.
+        """
+        return loading.start_state(self, keyframe, state)
+
+    @property
+    def state_labels(self) -> list[tuple[str, str]]:
+        """Name and unit of each entry of qpos."""
+        return loading.state_labels(self._model)
+
+    @property
+    def bushes(self) -> list[str]:
+        """Names of the bush actuators."""
+        return bush_names(self._model)
+
+    def __str__(self) -> str:
+        """List what can be continued, what can be read, and where to start."""
+        return loading.describe(self)
+
+    def __repr__(self) -> str:
+        """Return a one-line description."""
+        return f"<Mechanism '{self.name}': {self.n} DOF, {len(self.parameters)} parameters>"

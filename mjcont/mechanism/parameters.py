@@ -1,0 +1,207 @@
+"""Named parameters of a MuJoCo model: declarations in its custom texts, its controls, and gravity."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+
+from mjcont.errors import NameLookupError, ParameterError
+from mjcont.mechanism.inputs import INPUT_FIELDS, actuator_of, limits, parameter_kind, setpoint_unit
+from mjcont.mechanism.paths import controls, read_target, resolve_path
+from mjcont.results.quantities import Parameter, Target, default_bounds
+from mjcont.results.text import ParameterTable
+
+if TYPE_CHECKING:
+    from mjcont.mechanism.geometry import Geometry
+
+GRAVITY_ANGLE, LOAD_FACTOR = "gravity_angle", "load_factor"
+DECLARATION_PREFIX = "mjcont/"
+_SETTINGS = frozenset({"gravity_axis", "notes"})
+
+
+@dataclass(frozen=True, slots=True)
+class Declaration:
+    """What a `mjcont/NAME` text says: unit, bounds and the paths of the targets. Python may give a function.
+
+    Attributes
+    ----------
+    function, value : in place of paths, `function(spec, value)` and the parameter's value in the model.
+    """
+
+    name: str
+    unit: str
+    bounds: tuple[float, float] | None
+    paths: tuple[str, ...]
+    function: Callable[[Any, float], None] | None = None
+    value: float | None = None
+
+    def record(self, made: Parameter) -> dict[str, Any]:
+        """Return what a result file keeps of it; of a function, its name."""
+        what = {"paths": list(self.paths)} if self.function is None else {"function": made.source, "value": made.value}
+        return what | {"unit": made.unit, "bounds": list(made.bounds)}
+
+
+def parse_declaration(name: str, text: str) -> Declaration:
+    """Read `unit=N/m bounds=1,1e10 : path path ...`.
+
+    Raises
+    ------
+    ParameterError
+        If a key is unknown, bounds are not two increasing numbers, or no target is given.
+    """
+    head, colon, tail = text.partition(" : ")
+    if not colon:
+        raise ParameterError(f"parameter '{name}': expected 'unit=... bounds=lo,hi : targets', got '{text}'")
+    unit, bounds = "", None
+    for item in head.split():
+        key, _, value = item.partition("=")
+        if key == "unit":
+            unit = value
+        elif key == "bounds":
+            try:
+                low, high = (float(v) for v in value.split(","))
+            except ValueError:
+                low, high = 1.0, 0.0
+            if not low < high:
+                raise ParameterError(f"parameter '{name}': bounds must be 'low,high' with low < high, got '{value}'")
+            bounds = (low, high)
+        else:
+            raise ParameterError(f"parameter '{name}': unknown key '{key}'. Valid: unit, bounds.")
+    paths = tuple(tail.split())
+    if not paths:
+        raise ParameterError(f"parameter '{name}': no target after ':'")
+    return Declaration(name, unit, bounds, paths)
+
+
+def declarations(model: mujoco.MjModel) -> list[Declaration]:
+    """Return the declarations in the model's custom texts, in their order."""
+    found = []
+    for i in range(model.ntext):
+        name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_TEXT, i) or ""
+        if name.startswith(DECLARATION_PREFIX):
+            start, size = model.text_adr[i], model.text_size[i]
+            text = bytes(model.text_data[start : start + size]).rstrip(b"\0").decode()
+            if name.removeprefix(DECLARATION_PREFIX) not in _SETTINGS:
+                found.append(parse_declaration(name.removeprefix(DECLARATION_PREFIX), text))
+    return found
+
+
+def setting(model: mujoco.MjModel, name: str) -> str | None:
+    """Return the text `mjcont/name` of the model, or None."""
+    text_id = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_TEXT, DECLARATION_PREFIX + name)
+    if text_id < 0:
+        return None
+    start, size = model.text_adr[text_id], model.text_size[text_id]
+    return bytes(model.text_data[start : start + size]).rstrip(b"\0").decode()
+
+
+def agreed_value(name: str, values: np.ndarray) -> float:
+    """Return the value that all targets of a parameter imply."""
+    spread = np.ptp(values)
+    if spread > 1e-9 * max(1.0, np.abs(values).max()):
+        raise ParameterError(
+            f"parameter '{name}': its targets disagree in this model "
+            f"(values from {values.min():g} to {values.max():g}); give each its own parameter, "
+            "an index such as [0] where they are one vector, or factors and offsets that make them agree"
+        )
+    return float(values[0]) + 0.0
+
+
+def make_parameter(model: mujoco.MjModel, declaration: Declaration) -> Parameter:
+    """Resolve a declaration against a model, checking that all its targets agree on one value."""
+    targets = tuple(t for path in declaration.paths for t in resolve_path(model, path))
+    value = agreed_value(declaration.name, np.concatenate([read_target(model, t) for t in targets]))
+    kind = parameter_kind({t.field for t in targets})
+    units = {t.unit for t in targets}
+    unit = declaration.unit or (units.pop() if len(units) == 1 else "")
+    *hard, words = _input_range(model, targets)
+    springs = any(t.loaded is not None for t in targets)
+    several_decades = (1e-4 * value, 1e4 * value) if springs and value > 0 else None
+    bounds = declaration.bounds or several_decades or default_bounds(value, unit)
+    if kind == "switch":
+        bounds = (0.0, 1.0)
+    low, high = _positive(targets) if springs else hard
+    return Parameter(declaration.name, unit, value, bounds, kind, targets, (low, high), words)
+
+
+def declared_parameter(model: mujoco.MjModel, geometry: Geometry, declaration: Declaration) -> Parameter:
+    """Return the parameter that paths declare, to fields or through the spec, or that a function of the spec is."""
+    if declaration.function is not None:
+        return geometry.function_parameter(declaration, declaration.function, declaration.value)
+    if declaration.value is not None:
+        raise ParameterError(
+            f"parameter '{declaration.name}': value= goes with function=; the value of a path is the model's own"
+        )
+    if not declaration.paths:
+        raise ParameterError(f"parameter '{declaration.name}': give at least one target, such as joint:hip.stiffness")
+    if any(path.startswith("spec:") for path in declaration.paths):
+        return geometry.path_parameter(declaration)
+    return make_parameter(model, declaration)
+
+
+def _positive(targets: Sequence[Target]) -> tuple[float, float]:
+    """Return the range of values that keeps every constraint's stiffness positive."""
+    low, high = -math.inf, math.inf
+    for t in targets:
+        if t.loaded is not None:
+            end = (float(np.finfo(float).tiny) - t.offset) / t.factor
+            low, high = (max(low, end), high) if t.factor > 0 else (low, min(high, end))
+    return low, high
+
+
+def _input_range(model: mujoco.MjModel, targets: Sequence[Target]) -> tuple[float, float, str]:
+    """Return the range of values that MuJoCo would not clamp, and the words for it."""
+    low, high, words = -math.inf, math.inf, ""
+    for target in (t for t in targets if t.field in INPUT_FIELDS):
+        for i in target.index:
+            start, end, name = limits(model, target.field, i)
+            ends = sorted(((start - target.offset) / target.factor, (end - target.offset) / target.factor))
+            if ends[0] > low or ends[1] < high:
+                words = name
+            low, high = max(low, ends[0]), min(high, ends[1])
+    return low, high, words
+
+
+def control_parameter(model: mujoco.MjModel, name: str, field: str, index: int) -> Parameter:
+    """Return the parameter that every actuator's control, or integrated setpoint, is by the actuator's name."""
+    target = Target(field, (index,), path=f"control:{name}")
+    low, high, words = _input_range(model, [target])
+    unit = setpoint_unit(model, actuator_of(model, "act", index)) if field == "act" else ""
+    finite = math.isfinite(low) and math.isfinite(high)
+    bounds = (low, high) if finite else default_bounds(0.0, unit)
+    value = float(read_target(model, target)[0])
+    return Parameter(name, unit, value, bounds, parameter_kind({field}), (target,), (low, high), words)
+
+
+def gravity_parameters() -> list[Parameter]:
+    """Return gravity_angle and load_factor, which every model has."""
+    return [
+        Parameter(GRAVITY_ANGLE, "rad", 0.0, (-math.pi, math.pi), "gravity"),
+        Parameter(LOAD_FACTOR, "1", 1.0, (0.0, 10.0), "gravity"),
+    ]
+
+
+def collect_parameters(model: mujoco.MjModel, geometry: Geometry) -> ParameterTable:
+    """Return declared parameters first, then controls, then gravity."""
+    found = ParameterTable()
+    reserved = {p.name for p in gravity_parameters()}
+    for declaration in declarations(model):
+        if any(path.startswith("sensor:") for path in declaration.paths):
+            continue
+        if declaration.name in found or declaration.name in reserved:
+            raise ParameterError(f"parameter '{declaration.name}' is declared twice")
+        try:
+            found[declaration.name] = declared_parameter(model, geometry, declaration)
+        except NameLookupError as error:
+            raise ParameterError(f"parameter '{declaration.name}': {error}") from error
+    for name, (field, index) in controls(model).items():
+        if name not in found:
+            found[name] = control_parameter(model, name, field, index)
+    for parameter in gravity_parameters():
+        found[parameter.name] = parameter
+    return found

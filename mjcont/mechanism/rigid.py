@@ -1,0 +1,178 @@
+"""Rigid-body zero modes: motions of the whole model that no force opposes, such as a free body's translations.
+
+Along such a motion every equilibrium is one of a continuum and K is singular everywhere. The modes are named, and
+held by a stiffness and a damping of their own in K and C, so that they spoil neither Newton's method nor folds nor
+stability; the residual is untouched, since it has no component along them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from mjcont.numerics.equations.problem import Values
+
+_AXES = "xyz"
+NAMES = [f"translation along {a}" for a in _AXES] + [f"rotation about {a}" for a in _AXES]
+_THROUGH = re.compile(r"(rotation about [xyz]) through \((.*)\)")
+_RIGID = 1e-9
+_NOTHING = 1e-12
+_SAME = 1e-6
+_STATES = 12
+# states after which it may be plain already that something opposes every motion
+_EARLY = (0, 3, 6)
+_STIFF = 1e-5  # a soft constraint stiffens with its violation, which differences see as a force
+
+
+def twist(name: str) -> np.ndarray:
+    """Return the velocity of the origin and the angular velocity of a named motion, (6,)."""
+    through = _THROUGH.fullmatch(name)
+    unit = np.eye(6)[NAMES.index(through[1] if through else name)]
+    if through:
+        unit[:3] = np.cross([float(c) for c in through[2].split(",")], unit[3:])
+    return unit
+
+
+def directions(model: mujoco.MjModel, data: mujoco.MjData, names: Iterable[str]) -> dict[str, np.ndarray]:
+    """Return the tangent vectors (nv,) that move all moving bodies as one rigid body, by name.
+
+    `data` holds positions after `mj_kinematics` and `mj_comPos`. A motion that the joints do not allow is left out.
+    """
+    jac, moved = _bodies(model, data)
+    found = {}
+    for name in names:
+        wanted = moved @ twist(name)
+        z = np.linalg.lstsq(jac, wanted, rcond=None)[0]
+        z[np.abs(z) < _NOTHING * np.abs(z).max()] = 0.0
+        if np.linalg.norm(jac @ z - wanted) < _RIGID * np.linalg.norm(wanted) and z.any():
+            found[name] = z
+    return found
+
+
+def _bodies(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[np.ndarray, np.ndarray]:
+    """Return the velocities of all bodies that can move, per tangent coordinate and per twist: (6 m, nv), (6 m, 6)."""
+    moves = model.body_dofnum > 0
+    for body in range(1, model.nbody):
+        moves[body] |= moves[model.body_parentid[body]]
+    moving = np.flatnonzero(moves)
+    jac, moved = np.zeros((len(moving), 6, model.nv)), np.zeros((len(moving), 6, 6))
+    for k, mover in enumerate(moving):
+        mujoco.mj_jacBodyCom(model, data, jac[k, :3], jac[k, 3:], mover)
+        moved[k] = np.eye(6)
+        moved[k, :3, 3:] = -_cross(data.xipos[mover])
+    return jac.reshape(-1, model.nv), moved.reshape(-1, 6)
+
+
+def _cross(v: np.ndarray) -> np.ndarray:
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+def _stacked(barred: list[np.ndarray], work: list[np.ndarray], largest: float) -> np.ndarray:
+    """Return what opposes the six rigid motions, a row for each velocity that the joints bar and each force."""
+    return np.concatenate([*barred, np.array(work) / (largest or 1.0)])
+
+
+def _least(barred: list[np.ndarray], work: list[np.ndarray], largest: float) -> float:
+    """Return a lower bound of the least singular value of what opposes rigid motions, for forces ten times as large."""
+    return float(np.linalg.svd(_stacked(barred, work, 10.0 * largest), compute_uv=False)[-1])
+
+
+def zero_modes(
+    mechanism: Any,
+    model: mujoco.MjModel,
+    position: Any,
+    x: np.ndarray,
+    values: Any,
+    among: Iterable[str] | None = None,
+) -> tuple[str, ...]:
+    """Return the names of the rigid motions that no generalised force opposes anywhere near a state.
+
+    With J z = B t the bodies move by the twist t. Zero modes are the twists that the joints allow, (1 - J J+) B t = 0,
+    and along which no force acts, f . J+ B t = 0, in all of a number of states.
+
+    Parameters
+    ----------
+    position : callable that returns MuJoCo's data at a state.
+    among : names of motions to try, instead of all.
+    """
+    barred, work, largest = [], [], 0.0
+    for k in range(_STATES):
+        step = 0.1 * mechanism.state_scale * np.cos(1.0 + k + (1 + k) * np.arange(mechanism.n)) if k else None
+        beside = x if step is None else mechanism.retract(x, step)
+        force = mechanism.residual(beside, values)
+        jac, moved = _bodies(model, position(beside))
+        if not len(jac):
+            return ()
+        z = np.linalg.lstsq(jac, moved, rcond=None)[0]
+        barred.append((jac @ z - moved) / np.abs(moved).max())
+        work.append(force @ z / (np.abs(z).max() or 1.0))
+        largest = max(largest, np.abs(force).max())
+        if among is None and k in _EARLY and _least(barred, work, largest) > _RIGID:
+            return ()  # what opposes every motion here does so whatever other states add
+    opposed = _stacked(barred, work, largest)
+    if among is None:
+        _, sizes, vh = np.linalg.svd(opposed, full_matrices=False)
+        names = _named(vh[sizes <= _RIGID])
+    else:
+        names = [n for n in among if np.linalg.norm(opposed @ twist(n)) <= _SAME]
+    return tuple(name for name in names if _unopposed(mechanism, model, position, x, values, name))
+
+
+def _named(free: np.ndarray) -> list[str]:
+    """Return names of motions that span the twists `free` (k, 6), orthonormal rows: about points where need be."""
+    found = []
+    for i, name in enumerate(NAMES):
+        unit = np.eye(6)[i]
+        if np.linalg.norm(unit - free.T @ (free @ unit)) < _SAME:
+            found.append(name)
+        elif i >= 3:
+            weights = np.linalg.lstsq(free[:, 3:].T, unit[3:], rcond=None)[0]
+            whole = free.T @ weights
+            point = np.cross(unit[3:], whole[:3])
+            if np.linalg.norm(np.concatenate([np.cross(point, unit[3:]), unit[3:]]) - whole) < _SAME:
+                found.append(f"{name} through ({', '.join(f'{c + 0.0:.9g}' for c in np.round(point, 9))})")
+    return found
+
+
+def _unopposed(mechanism: Any, model: mujoco.MjModel, position: Any, x: np.ndarray, values: Any, name: str) -> bool:
+    """Whether the forces do not change along a motion, but for turning with it."""
+    z = directions(model, position(x), [name]).get(name)
+    if z is None:
+        return False
+    local = mechanism.linearize(x, values, ())
+    turned = 2.0 * np.abs(local.f).max()
+    return bool(np.abs(local.jac @ z).max() <= (_STIFF * (np.abs(local.jac).max() or 1.0) + turned) * np.abs(z).max())
+
+
+def rate(jac: np.ndarray, mass: np.ndarray) -> float:
+    """Return the frequency with which rigid modes are held, in rad/s: of the stiffest motion."""
+    return float(np.sqrt(np.abs(jac).max() / np.abs(mass).max()))
+
+
+def holding(mass: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Return M Z (Z' M Z)^-1 Z' M for modes Z (nv, k): a stiffness that leaves all other modes as they are."""
+    mz = mass @ z
+    return mz @ np.linalg.solve(z.T @ mz, mz.T)
+
+
+def without_modes(step: np.ndarray, mass: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Return a tangent step (nv,) without its part along modes Z, orthogonal in the mass."""
+    return step - z @ np.linalg.solve(z.T @ mass @ z, z.T @ (mass @ step))
+
+
+def full_turns(problem: Any, x: np.ndarray, values: Values) -> np.ndarray:
+    """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
+    found = np.full(problem.n, np.inf)
+    hinges = [j for j, (_, unit) in enumerate(problem.state_labels) if unit == "rad" and problem.nq == problem.n]
+    beside = problem.retract(x, 0.1 * problem.state_scale * np.cos(1.0 + np.arange(problem.n)))
+    turns = 2.0 * np.pi * np.eye(problem.n)[hinges]
+    rows = problem.residuals(beside, values, np.concatenate([np.zeros((1, problem.n)), turns]))
+    change = np.abs(rows[1:] - rows[0]).max(axis=1, initial=0.0)
+    for j, c in zip(hinges, change, strict=True):
+        if c <= 1e-9 * np.abs(rows[0]).max():
+            found[j] = 2.0 * np.pi
+    return found

@@ -1,0 +1,1 @@
+"""What happens in time: simulate, certificates, escapes, load paths, margins."""

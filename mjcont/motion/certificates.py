@@ -1,0 +1,377 @@
+"""The dynamic check of stability: motions beside an equilibrium grow or decay as its critical eigenvalue says.
+
+Near an equilibrium M dq'' + C dq' + K dq = 0. For an eigenvalue s with right vector q and left vector p of
+s^2 M + s C + K, the projection
+
+    a(t) = p^H [(s M + C) dq + M dq']      obeys exactly      a' = s a,
+
+whatever else moves. Two motions start at x + e q and x - e q; half their difference is free of the equilibrium's own
+error and of even nonlinear terms. The slope of log |a| is the measured rate, held against Re s.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+
+import mujoco
+import numpy as np
+from mujoco.batch import Batch
+
+from mjcont.curves.continuation import hold_rigid_modes
+from mjcont.errors import MjcontError, ParameterError
+from mjcont.mechanism.batches import load_side
+from mjcont.mechanism.inputs import DataInputs
+from mjcont.mechanism.mechanism import Mechanism
+from mjcont.motion.stepping import INTEGRATORS, quiet
+from mjcont.numerics.equations.problem import Array, Pencil
+from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
+from mjcont.results.branch import Branch, show
+
+CONFIRMED, CONTRADICTED, UNRESOLVED = "confirmed", "contradicted", "unresolved"
+_E_FOLDS = 2.0
+_SAMPLES = 64
+_LEAST_STEPS = 512
+# |s| h of the fastest mode: half of what RK4 bears
+_FASTEST = 1.4
+# what RK4's own damping of an oscillation may take of the rate
+_DAMPING_SHARE = 2e-3
+_DEPENDENT = 1e-9
+_SHRINKS = (1.0, 1e-1, 1e-2)
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One point of a branch and what its motions say.
+
+    Attributes
+    ----------
+    index, label : row of the branch, and its label if it is a special point.
+    parameters : values of the free parameters.
+    stability : what the branch says.
+    eigenvalue : the critical one of the branch, in 1/s.
+    rate : measured growth rate in 1/s, NaN if none was measured.
+    time : for how long the motions were followed, in s.
+    verdict : "confirmed", "contradicted" or "unresolved".
+    sentence : why.
+    """
+
+    index: int
+    label: str
+    parameters: Mapping[str, float]
+    stability: str
+    eigenvalue: complex
+    rate: float
+    time: float
+    verdict: str
+    sentence: str
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """What the dynamic check of a branch found.
+
+    Attributes
+    ----------
+    checks : tuple of Check, along the branch.
+    tolerance : largest relative difference between measured and predicted rate that confirms.
+    resolution : least |Re s| x time at which a rate counts as resolved.
+    units : of the free parameters.
+    """
+
+    checks: tuple[Check, ...]
+    tolerance: float
+    resolution: float
+    units: Mapping[str, str]
+
+    def __len__(self) -> int:
+        """Return the number of points checked."""
+        return len(self.checks)
+
+    def __iter__(self) -> Iterator[Check]:
+        """Iterate over the checks."""
+        return iter(self.checks)
+
+    def of(self, verdict: str) -> list[Check]:
+        """Return the checks with a verdict."""
+        return [c for c in self.checks if c.verdict == verdict]
+
+    @property
+    def holds(self) -> bool:
+        """Whether at least one point is confirmed and none contradicted."""
+        return bool(self.of(CONFIRMED)) and not self.of(CONTRADICTED)
+
+    @property
+    def headline(self) -> str:
+        """The counts as one line."""
+        counts = Counter(c.verdict for c in self.checks)
+        deviations = [abs(c.rate / c.eigenvalue.real - 1.0) for c in self.of(CONFIRMED)]
+        worst = f", rates within {max(deviations):.1e} of the eigenvalues" if deviations else ""
+        return (
+            f"stability by simulation: {len(self)} points, {counts[CONFIRMED]} confirmed{worst}, "
+            f"{counts[CONTRADICTED]} contradicted, {counts[UNRESOLVED]} unresolved"
+        )
+
+    def __str__(self) -> str:
+        """Return the counts and a line for every point."""
+        lines = [self.headline]
+        for c in self.checks:
+            place = ", ".join(f"{n} = {show(v, self.units.get(n, ''))}" for n, v in c.parameters.items())
+            name = f"row {c.index}" + (f" ({c.label})" if c.label else "")
+            lines.append(f"  {name}, {place}: {c.stability}, {c.verdict}: {c.sentence}")
+        return "\n".join(lines)
+
+    def to_json(self) -> str:
+        """Return the certificate as JSON."""
+        rows = [{**asdict(c), "eigenvalue": [c.eigenvalue.real, c.eigenvalue.imag]} for c in self.checks]
+        head = {"tolerance": self.tolerance, "resolution": self.resolution, "units": dict(self.units)}
+        return json.dumps({**head, "checks": rows})
+
+    @classmethod
+    def from_json(cls, text: str) -> Certificate:
+        """Read what `to_json` wrote."""
+        given = json.loads(text)
+        checks = tuple(Check(**{**row, "eigenvalue": complex(*row["eigenvalue"])}) for row in given["checks"])
+        return cls(checks, given["tolerance"], given["resolution"], given["units"])
+
+
+@dataclass(frozen=True, slots=True)
+class _Probe:
+    """A point with its critical mode, and how its motions are stepped."""
+
+    index: int
+    model: mujoco.MjModel
+    inputs: Mapping[str, Array]
+    x: Array
+    pencil: Pencil
+    s: complex
+    left: Array
+    position: Array
+    velocity: Array
+    step: float
+    count: int
+
+    @property
+    def time(self) -> float:
+        return self.step * self.count
+
+
+def verify_stability(
+    branch: Branch,
+    n: int = 20,
+    *,
+    rows: Sequence[int] | None = None,
+    amplitude: float = 1e-7,
+    tolerance: float = 0.05,
+    resolution: float = 1e-3,
+    max_steps: int = 200_000,
+    nthread: int | None = None,
+) -> Branch:
+    """Check the stability of points of a branch by simulation; the branch returned carries the certificate.
+
+    Parameters
+    ----------
+    n : int
+        Number of points, spread evenly over the rows; or give the `rows`.
+    amplitude : float
+        Of the disturbance along the critical eigenvector, in rad and in sizes of the model; less, down to a
+        hundredth, where a limit or contact would begin or cease to carry load.
+    tolerance : float
+        Relative difference of growth rate and eigenvalue up to which a point is confirmed.
+    resolution : float
+        A point is unresolved if |Re s| times the time that `max_steps` reach is less.
+    max_steps : int
+        Steps per point. The step is set by the fastest mode and by the accuracy of the critical one.
+
+    Returns
+    -------
+    Branch
+        The same with `certificate`: counts, and a verdict and a sentence for every point.
+
+    Raises
+    ------
+    MjcontError
+        If the branch is no curve of equilibria of a Mechanism, or was loaded without it.
+    """
+    if not isinstance(branch.problem, Mechanism) or branch.kind != "equilibria":
+        raise MjcontError("verify_stability needs a curve of equilibria of a Mechanism (loaded with it)")
+    if n < 1 or not amplitude > 0 or not tolerance > 0 or not resolution > 0:
+        raise ParameterError("n, amplitude, tolerance and resolution must be positive")
+    if rows is None:
+        rows = sorted({round(i) for i in np.linspace(0, len(branch) - 1, min(n, len(branch)))})
+    wrong = [r for r in rows if not 0 <= r < len(branch)]
+    if wrong:
+        raise ParameterError(f"row {wrong[0]} is not on the branch: it has rows 0 to {len(branch) - 1}")
+    first = branch.row(0)
+    mechanism, _ = hold_rigid_modes(branch.problem, first.state, first.parameters)
+    probes, checks = [], []
+    for row in rows:
+        probe = _probe(mechanism, branch, row, amplitude, resolution, max_steps)
+        if isinstance(probe, str):
+            checks.append(_check(branch, row, math.nan, 0.0, UNRESOLVED, probe))
+        else:
+            probes.append(probe)
+    with quiet():
+        for group in _groups(probes):
+            rates = _measure(mechanism, group, nthread or os.cpu_count() or 1)
+            checks += [_judge(branch, p, *r, tolerance) for p, r in zip(group, rates, strict=True)]
+    units = {name: branch.unit(name) for name in branch.free}
+    certificate = Certificate(tuple(sorted(checks, key=lambda c: c.index)), tolerance, resolution, units)
+    return replace(branch, certificate=certificate)
+
+
+def _critical(branch: Branch, row: int) -> complex:
+    eigenvalues = branch.eigenvalues[row]
+    return complex(eigenvalues[np.nanargmax(eigenvalues.real)])
+
+
+def _check(branch: Branch, row: int, rate: float, time: float, verdict: str, sentence: str) -> Check:
+    parameters = {name: float(branch[name][row]) for name in branch.free}
+    stability, s = str(branch.stability[row]), _critical(branch, row)
+    return Check(row, branch.labels[row], parameters, stability, s, float(rate), float(time), verdict, sentence)
+
+
+def _probe(
+    mechanism: Mechanism, branch: Branch, row: int, amplitude: float, resolution: float, max_steps: int
+) -> _Probe | str:
+    """Return how to test a row, or why it cannot be."""
+    if branch.stability[row] == "marginal":
+        return "classified as marginal: the eigenvalue is on the axis within its noise"
+    if branch.labels[row].startswith("CO"):
+        return "a corner: a limit or contact begins or ceases to carry load here"
+    point, stored = branch.row(row), _critical(branch, row)
+    values, x = mechanism.values(point.parameters), point.state
+    pencil = mechanism.pencil(x, values, mechanism.linearize(x, values, (), accurate=True).jac)
+    assert pencil.mass is not None and pencil.damping is not None
+    found = quadratic_eigenvalues(pencil.mass, pencil.damping, pencil.stiffness)
+    s = complex(found[np.argmin(np.abs(found - stored))])
+    if s.imag == 0.0 and stored.real == 0.0:
+        return "the critical eigenvalue is zero"
+    fastest = float(np.abs(found).max())
+    step = min(_FASTEST / fastest, _accurate_step(stored))
+    time = min(_E_FOLDS / abs(stored.real), step * max_steps)
+    if abs(stored.real) * time < resolution:
+        return (
+            f"marginal in {time:.3g} s, the time that {max_steps} steps reach: |Re s| x time = "
+            f"{abs(stored.real) * time:.1e}, below {resolution:g}"
+        )
+    count = max(math.ceil(time / step), _LEAST_STEPS)
+    count += -count % _SAMPLES
+    left, right = _vectors(pencil, s)
+    model = mechanism.simulation_model()
+    writer = mechanism.writer(model)
+    writer.write(mechanism.parameters, values)
+    model.opt.integrator = INTEGRATORS["RK4"]
+    # the solver must find constraint forces far more exactly than the disturbance changes them
+    model.opt.tolerance, model.opt.ls_tolerance, model.opt.iterations = 0.0, 1e-6, 100
+    size = amplitude / float(np.abs(right / mechanism.state_scale).max())
+    for shrink in _SHRINKS:
+        q = shrink * size * right
+        if _one_piece(mechanism, model, writer.inputs, x, q, s):
+            v = (s * q).real
+            return _Probe(row, model, writer.inputs.copies(), x, pencil, s, left, q.real, v, time / count, count)
+    return "a limit or contact begins or ceases to carry load beside the point: its motions are not linear"
+
+
+def _one_piece(mechanism: Mechanism, model: mujoco.MjModel, inputs: DataInputs, x: Array, q: Array, s: complex) -> bool:
+    """Whether the same limits and contacts carry load throughout motions of the size of `q` and its growth."""
+    if not mechanism.constrained:
+        return True
+    data, sides = mujoco.MjData(model), set()
+    inputs.put(data)
+    for phase in (0.0, 1.0, 1.0j, -1.0, -1.0j):
+        away = phase * math.exp(_E_FOLDS) * q
+        data.qpos[:], data.qvel[:] = mechanism.retract(x, away.real), (s * away).real
+        mujoco.mj_forward(model, data)
+        sides.add(load_side(model, data))
+    return len(sides) == 1
+
+
+def _accurate_step(s: complex) -> float:
+    """Return the step at which RK4's damping of an oscillation, |s|^6 h^5 / 144, is a small share of its rate."""
+    return float((144.0 * _DAMPING_SHARE * abs(s.real) / abs(s) ** 6) ** 0.2)
+
+
+def _vectors(pencil: Pencil, s: complex) -> tuple[Array, Array]:
+    """Return left and right vectors of an eigenvalue that see each other, also where it is double."""
+    assert pencil.mass is not None and pencil.damping is not None
+    mass, damping = pencil.mass, pencil.damping
+    # rows and columns are scaled so that light and stiff coordinates weigh alike
+    scale = 1.0 / np.sqrt(np.diag(mass))
+    matrix = (s**2 * mass + s * damping + pencil.stiffness) * np.outer(scale, scale)
+    u, sigma, vh = np.linalg.svd(matrix)
+    kernel = np.flatnonzero(sigma <= max(1e-7 * sigma[0], 10.0 * sigma[-1]))
+    p, q = scale[:, None] * u[:, kernel], scale[:, None] * vh[kernel].conj().T
+    if s.imag == 0.0:
+        p, q = p.real, q.real
+    seen = np.abs(p[:, -1].conj() @ (2.0 * s * mass + damping) @ q)
+    if seen.max() > _DEPENDENT * seen.sum():
+        return p[:, -1], q[:, int(np.argmax(seen))]
+    return p[:, -1], q[:, -1]
+
+
+def _groups(probes: Sequence[_Probe]) -> Iterator[list[_Probe]]:
+    """Gather probes of about as many steps, each given the same number and a step of its own."""
+    by_size: dict[int, list[_Probe]] = {}
+    for probe in probes:
+        by_size.setdefault(math.ceil(math.log2(probe.count)), []).append(probe)
+    for group in by_size.values():
+        count = max(p.count for p in group)
+        yield [replace(p, count=count, step=p.time / count) for p in group]
+
+
+def _measure(mechanism: Mechanism, group: Sequence[_Probe], nthread: int) -> list[tuple[float, str]]:
+    """Return the growth rate of every probe, and what went wrong with it if anything did."""
+    pairs = [(p, sign) for p in group for sign in (1.0, -1.0)]
+    for p in group:
+        p.model.opt.timestep = p.step
+    batch = Batch(pairs[0][0].model, len(pairs), nthread=min(nthread, len(pairs)))
+    batch.set_models([p.model for p, _ in pairs])
+    batch.qpos = np.array([mechanism.retract(p.x, sign * p.position) for p, sign in pairs])
+    batch.qvel = np.array([sign * p.velocity for p, sign in pairs])
+    for name, rows in pairs[0][0].inputs.items():
+        if rows.size:
+            batch.bind(name)[:] = np.array([p.inputs[name] for p, _ in pairs])
+    block = group[0].count // _SAMPLES
+    logs = [[_log_projection(mechanism, p, batch.qpos[2 * i : 2 * i + 2], batch.qvel[2 * i : 2 * i + 2])]
+            for i, p in enumerate(group)]
+    for _ in range(_SAMPLES):
+        batch.step(nstep=block)
+        for i, p in enumerate(group):
+            two = slice(2 * i, 2 * i + 2)
+            logs[i].append(_log_projection(mechanism, p, batch.qpos[two], batch.qvel[two]))
+    return [_slope(np.array(log), p) for log, p in zip(logs, group, strict=True)]
+
+
+def _log_projection(mechanism: Mechanism, p: _Probe, qpos: Array, qvel: Array) -> float:
+    """Return log |a| of half the difference between the two motions."""
+    assert p.pencil.mass is not None and p.pencil.damping is not None
+    if not (np.all(np.isfinite(qpos)) and np.all(np.isfinite(qvel))):
+        return math.nan
+    away = 0.5 * (mechanism.difference(qpos[0], p.x) - mechanism.difference(qpos[1], p.x))
+    speed = 0.5 * (qvel[0] - qvel[1])
+    part = p.left.conj() @ ((p.s * p.pencil.mass + p.pencil.damping) @ away + p.pencil.mass @ speed)
+    return float(np.log(np.abs(part))) if part else -math.inf
+
+
+def _slope(log: Array, p: _Probe) -> tuple[float, str]:
+    """Return the slope of log |a| by least squares."""
+    if not np.all(np.isfinite(log)):
+        return math.nan, "the motions diverged or vanished"
+    times = np.linspace(0.0, p.time, len(log))
+    return float(np.polyfit(times, log, 1)[0]), ""
+
+
+def _judge(branch: Branch, p: _Probe, rate: float, trouble: str, tolerance: float) -> Check:
+    s = _critical(branch, p.index)
+    if trouble:
+        return _check(branch, p.index, rate, p.time, CONTRADICTED, trouble)
+    grows = "grow" if rate > 0 else "decay"
+    told = f"motions {grows} at {rate:.6g} /s over {p.time:.3g} s, the eigenvalue's real part is {s.real:.6g} /s"
+    same = (rate > 0) == (branch.stability[p.index] == "unstable")
+    close = abs(rate - s.real) <= tolerance * abs(s.real)
+    return _check(branch, p.index, rate, p.time, CONFIRMED if same and close else CONTRADICTED, told)

@@ -1,0 +1,368 @@
+"""Time histories: `simulate`, `simulate_many` and the step control behind them.
+
+A history is MuJoCo's own stepping under inputs that vary with time. With a tolerance the run is repeated at half the
+step until halving changes it by less than that; the change is the error's estimate.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mjcont.curves.continuation import start_from
+from mjcont.errors import ParameterError, unknown_name
+from mjcont.mechanism.mechanism import Mechanism
+from mjcont.motion.signals import Input, read_inputs
+from mjcont.motion.stepping import INTEGRATORS, Case, Grid, Track, run
+from mjcont.numerics.equations.problem import Array
+from mjcont.results.branch import Column, Point
+
+MODEL = "model"
+_CASE_KEYS = ("inputs", "start", "keyframe", "state", "velocity")
+_MAX_STEPS = 20_000_000
+_MAX_HALVINGS = 12
+# motion below this part of the model's size counts as none in a relative change
+_NO_MOTION = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class History:
+    """A time history.
+
+    Attributes
+    ----------
+    columns : mapping of name to Column: "time", the inputs, every observable; each (N,), SI and radians.
+    states, velocities : (N, nq) and (N, nv) arrays.
+    status : "done", "at rest", "stalled" (the tolerance was not reached), "diverged" or "interrupted".
+    message : a sentence.
+    settings : integrator, timestep, duration, steps, control_step, tol, and error: by how much halving the step
+        changed the history, relative to the motion's size (None without tol).
+    provenance : versions and the model's hash.
+    problem : the Mechanism, or None for a loaded file without one.
+    fixed : mapping of the other parameters to their values.
+    """
+
+    columns: Mapping[str, Column]
+    states: Array
+    velocities: Array
+    status: str
+    message: str
+    settings: Mapping[str, Any]
+    name: str = ""
+    problem: Any = field(repr=False, default=None)
+    provenance: Mapping[str, str] = field(default_factory=dict)
+    fixed: Mapping[str, float] = field(default_factory=dict, repr=False)
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.states)
+
+    def __getitem__(self, name: str) -> Array:
+        """Return a column, (N,)."""
+        if name in self.columns:
+            return self.columns[name].values
+        if name in self.fixed:
+            return np.full(len(self), self.fixed[name])
+        raise unknown_name("column", name, [*self.columns, *self.fixed])
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a column or of a fixed parameter."""
+        if name in self.columns:
+            return self.columns[name].unit
+        if name in self.fixed:
+            return str(self.problem.parameter(name).unit) if self.problem is not None else ""
+        raise unknown_name("column", name, [*self.columns, *self.fixed])
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of all columns."""
+        return {c.name: c.unit for c in self.columns.values()}
+
+    def save(self, path: str | Path) -> Path:
+        """Write the history to an HDF5 file (replacing it whole or not at all) and return the path."""
+        from mjcont.results.historyfiles import save
+
+        return save(self, path)
+
+    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
+        """Write the columns as CSV with units in the header."""
+        from mjcont.results.files import write_columns
+
+        return write_columns(self.columns, path, degrees=degrees)
+
+    def __str__(self) -> str:
+        """Return a one-line summary."""
+        s = self.settings
+        error = s.get("error")
+        known = "no error estimate (tol= asks for one)" if error is None else f"error about {error:.1e}"
+        return (
+            f"{self.name}: time history of {self['time'][-1]:g} s, {len(self)} samples, "
+            f"{s['integrator']} with a step of {s['timestep']:g} s, {known}: {self.message}"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class _Plan:
+    """How runs are stepped."""
+
+    grid: Grid
+    integrator: str
+    duration: float
+    tol: float | None
+    rest: float | None
+    max_steps: int
+    nthread: int
+
+
+@dataclass(slots=True)
+class _Outcome:
+    """A run as it stands: its finest track so far, the grid of that, and what halving changed."""
+
+    track: Track
+    grid: Grid
+    error: float = math.nan
+    stalled: str = ""
+
+
+def simulate(
+    mechanism: Mechanism,
+    inputs: Mapping[str, Input] | None = None,
+    duration: float = 10.0,
+    start: Mapping[str, float] | Point | None = None,
+    *,
+    keyframe: str | None = None,
+    state: Any = None,
+    velocity: Any = None,
+    timestep: float | None = None,
+    integrator: str = "discrete",
+    tol: float | None = None,
+    control_step: float | None = None,
+    until_rest: float | None = None,
+    samples: int = 2000,
+    max_steps: int = _MAX_STEPS,
+) -> History:
+    """Return the motion of a mechanism under inputs that vary with time.
+
+    Parameters
+    ----------
+    inputs : mapping of parameter to number, function f(t), (times, values), or controller u(t, observables)
+        Values between given times are interpolated linearly, and held before the first and after the last. A
+        controller is any callable of two arguments: it sees observables by name, in SI and radians, with attributes
+        `state` and `velocity`; its output saturates at the actuator's range. An object is copied for every run.
+    duration : float
+        In s.
+    start : dict of parameter values, or a point
+        With `keyframe` or `state` it says where the motion begins; at rest unless `velocity` (nv,) is given.
+    timestep : float, optional
+        In s; default the model's own. With `tol` the first and largest that is tried.
+    integrator : {"discrete", "implicitfast", "implicit", "Euler", "RK4", "model"}
+        "discrete" is implicit in the stiffness of bushes and stable with any of it, of first order; "RK4" is the most
+        accurate where the step resolves the fastest bush mode; "model" is the one that the model names.
+    tol : float, optional
+        Halve the step until that changes the positions, at every sample, by less than `tol` times the largest
+        excursion of the motion (rotations in rad, lengths in sizes of the model). Without it the step is as given.
+    control_step : float, optional
+        In s, between samples of controllers; default the model's own time step.
+    until_rest : float, optional
+        End when every speed (rad/s, or sizes of the model per s) has stayed below this over 1 s.
+    samples : int
+        About how many samples are recorded, evenly spaced in time.
+    max_steps : int
+        Steps that one run may take; a longer one is "stalled".
+
+    Returns
+    -------
+    History
+        Motion that diverges ends it early, with a status that says so.
+
+    Raises
+    ------
+    NameLookupError, ParameterError, BoundsError
+        See their messages.
+    """
+    case = {"inputs": inputs, "start": start, "keyframe": keyframe, "state": state, "velocity": velocity}
+    options = {"timestep": timestep, "integrator": integrator, "tol": tol, "control_step": control_step}
+    more = {"until_rest": until_rest, "samples": samples, "max_steps": max_steps}
+    return simulate_many(mechanism, [case], duration, **options, **more)[0]  # type: ignore[arg-type]
+
+
+def simulate_many(
+    mechanism: Mechanism,
+    cases: Sequence[Mapping[str, Any]],
+    duration: float = 10.0,
+    *,
+    timestep: float | None = None,
+    integrator: str = "discrete",
+    tol: float | None = None,
+    control_step: float | None = None,
+    until_rest: float | None = None,
+    samples: int = 2000,
+    max_steps: int = _MAX_STEPS,
+    nthread: int | None = None,
+) -> list[History]:
+    """Return the motions of many cases, stepped together on all processors.
+
+    Parameters
+    ----------
+    cases : sequence of dicts with any of inputs, start, keyframe, state, velocity
+        Each as `simulate` takes it; parameter values may differ from case to case. A controller with an attribute
+        `vectorised` is called once for all cases that share it, with arrays, one entry a case.
+    nthread : int, optional
+        Default the number of processors.
+
+    The other parameters are those of `simulate`. With `tol` only the cases that need it are repeated at finer steps.
+    Inputs that are controls, gravity_angle and load_factor run in one batch; a case in which another field of the
+    model varies with time is stepped by itself, many times slower.
+
+    Returns
+    -------
+    list of History
+        In the order of the cases.
+    """
+    if isinstance(cases, Mapping) or not all(isinstance(c, Mapping) for c in cases):
+        raise ParameterError("cases must be a sequence of dicts with any of " + ", ".join(_CASE_KEYS))
+    if integrator not in INTEGRATORS and integrator != MODEL:
+        raise unknown_name("integrator", integrator, [*INTEGRATORS, MODEL])
+    for label, value in (("tol", tol), ("until_rest", until_rest), ("control_step", control_step),
+                         ("timestep", timestep), ("duration", duration)):
+        if value is not None and not (value > 0 and math.isfinite(value)):
+            raise ParameterError(f"{label} must be a positive number, got {value}")
+    made = [_make_case(mechanism, c) for c in cases]
+    own = float(mechanism.simulation_model().opt.timestep)
+    controlled = any(c.controllers for c in made)
+    grid = _grid(duration, timestep or own, (control_step or own) if controlled else None, samples)
+    threads = nthread or os.cpu_count() or 1
+    plan = _Plan(grid, integrator, float(duration), tol, until_rest, max_steps, threads)
+    outcomes = _run(mechanism, made, plan) if made else []
+    return [_history(mechanism, c, o, plan, controlled) for c, o in zip(made, outcomes, strict=True)]
+
+
+def _make_case(mechanism: Mechanism, given: Mapping[str, Any]) -> Case:
+    for key in given:
+        if key not in _CASE_KEYS:
+            raise unknown_name("key of a case", key, _CASE_KEYS)
+    x, values = start_from(mechanism, given.get("start"), given.get("keyframe"), given.get("state"))
+    signals, controllers = read_inputs(given.get("inputs"))
+    for name in controllers:
+        mechanism.parameter(name)
+    values = mechanism.values({**values, **{n: s.at(0.0) for n, s in signals.items()}})
+    velocity = given.get("velocity")
+    v = np.zeros(mechanism.n) if velocity is None else np.array(velocity, dtype=float)
+    if v.shape != (mechanism.n,):
+        raise ParameterError(f"velocity must have shape ({mechanism.n},), got {v.shape}")
+    return Case(values, signals, controllers, x, v)
+
+
+def _grid(duration: float, step: float, control_step: float | None, samples: int) -> Grid:
+    hold = 1
+    if control_step is not None:
+        hold = max(math.ceil(control_step / step - 1e-9), 1)
+        step = control_step / hold
+    if duration < step:
+        raise ParameterError(f"duration ({duration:g} s) must be at least one time step ({step:g} s)")
+    count = round(duration / step)
+    return Grid(step, count, max(count // max(samples, 1), 1), hold)
+
+
+def _run(mechanism: Mechanism, cases: Sequence[Case], plan: _Plan) -> list[_Outcome]:
+    """Run all cases, and again at half the step those that it still changes."""
+
+    def stepped(rows: Sequence[int], grid: Grid) -> list[Track]:
+        chosen = [cases[i] for i in rows]
+        return run(mechanism, chosen, grid, plan.integrator, nthread=plan.nthread, rest=plan.rest)
+
+    grid, rows = plan.grid, list(range(len(cases)))
+    if grid.count > plan.max_steps:
+        short = Grid(grid.step, plan.max_steps, grid.every, grid.hold)
+        why = f"max_steps = {plan.max_steps} steps do not reach the end: allow more, or take a larger timestep"
+        return [_Outcome(t, short, stalled=why) for t in stepped(rows, short)]
+    outcomes = [_Outcome(t, grid) for t in stepped(rows, grid)]
+    if plan.tol is None:
+        return outcomes
+    for halvings in range(1, _MAX_HALVINGS + 2):
+        if any(o.track.ended == "interrupted" for o in outcomes):
+            return outcomes
+        grid = grid.halved()
+        if halvings > _MAX_HALVINGS or grid.count > plan.max_steps:
+            break
+        finer = stepped(rows, grid)
+        for i, track in zip(rows, finer, strict=True):
+            change = _change(mechanism, outcomes[i].track, track)
+            outcomes[i] = _Outcome(track, grid, change)
+        rows = [i for i in rows if not outcomes[i].error <= plan.tol]
+        if not rows:
+            return outcomes
+    for i in rows:
+        o = outcomes[i]
+        o.stalled = (
+            f"the tolerance {plan.tol:g} was not reached: halving the step to {o.grid.step:g} s still changes the "
+            f"motion by {o.error:.1e}; a shorter duration, a larger tol or another integrator may do"
+        )
+    return outcomes
+
+
+def _change(mechanism: Mechanism, coarse: Track, fine: Track) -> float:
+    """Return the largest change of position, relative to the largest excursion; infinity if either diverged."""
+    if "diverged" in (coarse.ended, fine.ended):
+        return math.inf
+    scale = mechanism.state_scale
+    both = list(zip(coarse.states, fine.states, strict=False))
+    change = max(float(np.abs(mechanism.difference(b, a) / scale).max()) for a, b in both)
+    size = max(float(np.abs(mechanism.difference(b, fine.states[0]) / scale).max()) for _, b in both)
+    return change / max(size, _NO_MOTION)
+
+
+def _status(outcome: _Outcome, plan: _Plan, last: float) -> tuple[str, str]:
+    ended = outcome.track.ended
+    if ended == "diverged":
+        advice = "take a smaller timestep, give tol, or integrator='discrete'"
+        if plan.tol is not None or plan.integrator == "discrete":
+            advice = "speeds grew beyond all bounds, or MuJoCo stopped the run"
+        return ended, f"the motion diverged after t = {last:g} s: {advice}"
+    if ended == "interrupted":
+        return ended, f"interrupted at t = {last:g} s"
+    if outcome.stalled:
+        return "stalled", outcome.stalled
+    if ended == "at rest":
+        return ended, f"at rest at t = {last:g} s"
+    if plan.tol is None:
+        return "done", "done"
+    return "done", f"done: halving the step to {outcome.grid.step:g} s changed the motion by {outcome.error:.1e}"
+
+
+def _history(mechanism: Mechanism, case: Case, outcome: _Outcome, plan: _Plan, controlled: bool) -> History:
+    from mjcont.curves.collect import provenance
+
+    track, grid = outcome.track, outcome.grid
+    states, velocities = np.array(track.states), np.array(track.velocities)
+    times = np.arange(len(states)) * grid.every * grid.step
+    series: dict[str, Array] = {n: s.series(times) for n, s in case.signals.items()}
+    for name, outputs in track.outputs.items():
+        series[name] = np.array([*outputs[:1], *outputs]) if outputs else np.array([case.values[name]])
+    values = [{**case.values, **{n: float(s[i]) for n, s in series.items()}} for i in range(len(times))]
+    measured = mechanism.measure(states, values, velocities=velocities)
+    columns = {"time": Column("time", "s", "time", times)}
+    for name, s in series.items():
+        columns[name] = Column(name, mechanism.parameter(name).unit, "parameter", s)
+    for k, o in enumerate(mechanism.observables.values()):
+        columns.setdefault(o.name, Column(o.name, o.unit, "observable", measured[:, k]))
+    status, message = _status(outcome, plan, float(times[-1]))
+    settings = {
+        "integrator": plan.integrator,
+        "timestep": grid.step,
+        "duration": plan.duration,
+        "steps": (len(times) - 1) * grid.every,
+        "control_step": grid.step * grid.hold if controlled else None,
+        "tol": plan.tol,
+        "error": None if math.isnan(outcome.error) else outcome.error,
+    }
+    fixed = {n: v for n, v in case.values.items() if n not in series}
+    return History(
+        columns, states, velocities, status, message, settings, mechanism.name, mechanism, provenance(mechanism), fixed
+    )

@@ -1,0 +1,351 @@
+"""`load_path`: what a mechanism does under a load that changes slowly: it follows a stable branch, and jumps.
+
+A rest is lost at a fold, a Hopf point, a branch point or a non-smooth fold. There the load is taken a hair further, the
+state a little way along the branch's unstable continuation, and let move until it rests (`escape`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from mjcont.curves.collect import collect, run_directions
+from mjcont.curves.continuation import find_equilibrium, hold_rigid_modes, make_settings
+from mjcont.curves.walkers import equilibrium_detectors
+from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
+from mjcont.mechanism.energy import potential_energy, without_potential
+from mjcont.motion.escape import Landing, escape
+from mjcont.motion.legs import FRACTION, Leg, unwrapped
+from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import Free, Local, System
+from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
+from mjcont.numerics.spectra.stability import spectrum_of
+from mjcont.numerics.step.arclength import CurvePoint
+from mjcont.numerics.walk.trace import Walker
+from mjcont.results.branch import Branch, Point, SpecialPoint, show
+from mjcont.results.loadpaths import Jump, LoadPath, Segment, sliced
+
+LANDINGS = ("motion", "creep")
+# how far beyond the point of loss the load is taken, relative to the leg: where another rest may be near, farther
+_HAIR = 1e-6
+_BEYOND = 1e-3
+_ASIDE = 1e-3
+_TURNED = -1e-6
+
+
+def load_path(
+    source: Any,
+    parameter: str | Sequence[Mapping[str, float]],
+    path: Sequence[float] | None = None,
+    start: Mapping[str, float] | Point | None = None,
+    *,
+    keyframe: str | None = None,
+    state: Any = None,
+    landing: str = "motion",
+    max_time: float = 1000.0,
+    max_jumps: int = 50,
+    **options: Any,
+) -> LoadPath:
+    """Return the quasi-static response to a load that follows a path.
+
+    Parameters
+    ----------
+    source : Branch, Mechanism or VectorField
+        A branch starts the path at its stable point at the path's first value.
+    parameter : str, or sequence of dicts
+        The parameter, or the path itself where several change: each leg runs straight from one dict to the next.
+    path : sequence of float
+        Values of the parameter, such as [0, 30, 0].
+    start : dict of parameter values, or a point
+        With `keyframe` or `state` it says where the path begins; the values of the path come first.
+    landing : {"motion", "creep"}
+        Where an escape lands: by motion in time with the damping the model has, or without inertia, the limit of
+        large damping: quick, and never short of damping.
+    max_time : float
+        In s, after which a motion counts as not coming to rest.
+    max_jumps : int
+        Number of jumps after which the path ends.
+    **options
+        Fields of `Settings`: ds, ds_max, ...
+
+    Returns
+    -------
+    LoadPath
+        A rest that is lost for good ends it early, with a status and all that came before.
+
+    Raises
+    ------
+    NameLookupError, BoundsError, ParameterError, StartError
+        See their messages.
+    """
+    problem, given = (source.problem, source) if isinstance(source, Branch) else (source, None)
+    if problem is None:
+        raise MjcontError("the branch was loaded without its problem: mc.load(path, problem=...)")
+    if landing not in LANDINGS:
+        raise ParameterError(f"landing must be one of {', '.join(LANDINGS)}; got {landing!r}")
+    if not (max_time > 0 and max_jumps >= 0):
+        raise ParameterError(f"max_time must be positive and max_jumps not negative, got {max_time:g} and {max_jumps}")
+    settings = replace(make_settings(options), chord=math.inf)  # rows are the points that were reached in turn
+    vertices = _vertices(problem, parameter, path, start)
+    before = problem.evaluations
+    first = _first(problem, given, vertices[0], start, keyframe, state)
+    held, _ = hold_rigid_modes(problem, first.state, first.parameters)
+    if first.n_unstable:
+        raise StartError(f"the path begins at an unstable equilibrium, at which nothing rests: {first}")
+    follower = _Follower(held, settings, landing == "motion", max_time, max_jumps, [], [])
+    status, message = follower.run(first, vertices)
+    return LoadPath(
+        problem.name, vertices, tuple(follower.segments), tuple(follower.jumps), status, message,
+        problem.evaluations - before + follower.stepped, problem,
+    )
+
+
+def _vertices(problem: Any, parameter: Any, path: Any, start: Any) -> list[dict[str, float]]:
+    """Return the parameter values between which the path runs, each with every parameter that changes."""
+    if isinstance(parameter, str):
+        if path is None:
+            raise ParameterError(f"load_path needs the values of {parameter} to follow, such as [0, 30, 0]")
+        rows: list[Mapping[str, float]] = [{parameter: v} for v in (path if np.ndim(path) else [path])]
+    else:
+        if path is not None:
+            raise ParameterError("give a parameter's name and its values, or a list of dicts")
+        rows = list(parameter)
+    if any(not isinstance(r, Mapping) for r in rows):
+        raise ParameterError("a path in several parameters is a list of dicts, such as [{'F': 0}, {'F': 3, 'G': 1}]")
+    names = list(dict.fromkeys(n for r in rows for n in r))
+    known = start.parameters if isinstance(start, Point) else (start or {})
+    current = {n: float(known.get(n, problem.parameter(n).value)) for n in names}
+    found: list[dict[str, float]] = []
+    for row in rows:
+        try:
+            current = {**current, **{n: float(v) for n, v in row.items()}}
+        except (TypeError, ValueError) as error:
+            raise ParameterError(f"the loads of a path must be numbers, got {dict(row)}") from error
+        problem.values(current)
+        found.append(current)
+    if len(found) < 2 or all(v == found[0] for v in found):
+        raise ParameterError("a path needs at least two different loads, such as [0, 30]")
+    return found
+
+
+def _first(
+    problem: Any, branch: Branch | None, vertex: Values, start: Any, keyframe: str | None, state: Any
+) -> Point:
+    """Return the equilibrium at which the path begins."""
+    if branch is None or start is not None or keyframe is not None or state is not None:
+        if start is None and branch is not None:
+            start = branch.fixed
+        if isinstance(start, Point):
+            state = start.state if state is None else state
+            start = {k: v for k, v in start.parameters.items() if k in problem.parameters or ":" in k}
+        return find_equilibrium(problem, {**(start or {}), **vertex}, keyframe=keyframe, state=state)
+    if set(vertex) - set(branch.free) - set(branch.fixed):
+        raise ParameterError("the path changes a parameter that the branch does not know")
+    (name, *_) = branch.free
+    if len(branch.free) != 1 or name not in vertex:
+        raise ParameterError(f"the branch is in {', '.join(branch.free)}: the path must change that, or give start=")
+    if any(vertex[n] != branch.fixed[n] for n in vertex if n != name):
+        raise BoundsError("the path begins off the branch: its first values are not those that the branch holds fixed")
+    low, high = branch[name].min(), branch[name].max()
+    at = [p for p in branch.at(**{name: vertex[name]}) if p.n_unstable == 0]
+    unit = branch.unit(name)
+    if not at:
+        raise StartError(
+            f"the branch has no stable point at {name} = {show(vertex[name], unit)}, where the path begins; it runs "
+            f"from {show(low, unit)} to {show(high, unit)}"
+        )
+    if len(at) > 1:
+        listed = "; ".join(str(p) for p in at)
+        raise StartError(f"the branch has {len(at)} stable points where the path begins; give one as start=: {listed}")
+    return at[0]
+
+
+@dataclass(slots=True)
+class _Lost:
+    """Where a rest is lost: the point, its kind, the direction of the escape and why the walk ended there."""
+
+    point: Point
+    kind: str
+    along: Array
+
+
+@dataclass(slots=True)
+class _Follower:
+    """A load on its way: what has been followed, and how."""
+
+    problem: Any
+    settings: Settings
+    inertia: bool
+    max_time: float
+    max_jumps: int
+    segments: list[Segment]
+    jumps: list[Jump]
+    stepped: int = 0
+
+    def run(self, first: Point, vertices: Sequence[Values]) -> tuple[str, str]:
+        """Follow all legs; return status and sentence."""
+        at, rows = first, 0
+        for leg, target in enumerate(vertices[1:]):
+            while any(target[n] != at.parameters[n] for n in target):
+                segment, ended, lost = self._follow(at, target, leg)
+                if segment is None:
+                    return ended
+                self.segments.append(segment)
+                rows += len(segment.branch)
+                if lost is None:
+                    if ended[0] != "at bound":
+                        return ended
+                    at = segment.branch.row(int(segment.rows()[-1]))
+                    at = replace(at, parameters={**at.parameters, **target})  # without the rounding of a scaled unknown
+                    break
+                if len(self.jumps) == self.max_jumps:
+                    return "max jumps", f"{self.max_jumps} jumps were made"
+                jump = self._jump(lost, target, rows - 1)
+                self.jumps.append(jump)
+                if jump.after is None:
+                    return jump.status, f"the rest is lost at {jump.label}: {jump.message}"
+                at = jump.after
+        if not self.segments:
+            return "done", "the path does not change the load"
+        return "done", "the end of the path was reached"
+
+    def _follow(self, at: Point, target: Values, leg: int) -> tuple[Segment | None, tuple[str, str], _Lost | None]:
+        changing = [n for n in target if target[n] != at.parameters[n]]
+        problem, name, high = self.problem, changing[0], target[changing[0]]
+        values, low = dict(at.parameters), at.parameters[name]
+        if len(changing) > 1:
+            problem, name, low, high = Leg(self.problem, values, target), FRACTION, 0.0, 1.0
+            values = {**values, FRACTION: 0.0}
+        forward = 1 if high > low else -1
+        free = Free(name, min(low, high), max(low, high), problem.parameter(name).unit)
+        system = System(problem, values, [free])
+        detectors = equilibrium_detectors(system, self.settings, [], {})
+        walker = Walker(system, self.settings, detectors, _unstable(system, forward), frozenset({"LP", "HB", "BP"}))
+        traces = run_directions(walker, at.state, system.start_y(), (float(forward),), None)
+        if not traces[0].points:
+            return None, (traces[0].end.status.value, traces[0].end.message), None
+        branch = collect("equilibria", system, traces, (float(forward),), "along the load path", self.settings)
+        branch, lost = _cut(branch, forward, high if name != FRACTION else 1.0, name)
+        if name == FRACTION:
+            branch = unwrapped(branch)
+            if lost is not None:
+                end = len(branch) - 1
+                there = [p for p in branch.special_points if p.index == end]
+                lost = replace(lost, point=there[0] if there else branch.row(end))
+        return Segment(branch, forward, leg), branch.ends[0], lost
+
+    def _jump(self, lost: _Lost, target: Values, index: int) -> Jump:
+        """Let the state at which the rest is lost move, and return the jump."""
+        problem, point = self.problem, lost.point
+        near = lost.kind in ("BP", "HB")
+        beyond = _toward(point.parameters, target, _BEYOND if near else _HAIR)
+        rest_values = beyond if near else point.parameters
+        x = problem.retract(point.state, lost.along)
+        landing = escape(
+            problem, x, beyond, rest_values=rest_values, left=point.state, max_time=self.max_time, inertia=self.inertia
+        )
+        self.stepped += landing.stepped
+        count = sum(j.kind == lost.kind for j in self.jumps) + 1
+        label = f"{lost.kind}{count}"
+        energy, note = _released(problem, point, landing, lost.kind)
+        message = landing.message
+        if landing.point is None and lost.kind == "HB":
+            message += ": the rest gives way to an oscillation"
+        if lost.kind == "BP":
+            message += "; which way it goes is decided by imperfections, one was chosen"
+        return Jump(label, lost.kind, point, landing.point, index, energy, note, landing.time, landing.steps,
+                    landing.status, message, landing.states)
+
+
+def _toward(values: Values, target: Values, fraction: float) -> dict[str, float]:
+    """Return parameter values a fraction of the rest of the way further."""
+    return {**values, **{n: values[n] + fraction * (target[n] - values[n]) for n in target}}
+
+
+def _unstable(system: System, forward: int) -> Any:
+    """Return the function that ends a walk where stability is lost or the load would turn back."""
+
+    def check(p: CurvePoint) -> str | None:
+        if spectrum_of(p).n_unstable > 0:
+            return "the rest is lost"
+        if p.tangent[system.n] * forward < _TURNED:
+            return "the load would have to turn back"
+        return None
+
+    return check
+
+
+def _cut(branch: Branch, forward: int, target: float, name: str) -> tuple[Branch, _Lost | None]:
+    """Return the stable part of a branch just walked, and where its rest is lost, or None."""
+    order = np.arange(len(branch))[::forward]
+    status, sentence = branch.ends[0]
+    (low, high) = branch.free[name]
+    if status == "at bound" and abs(branch[name][order[-1]] - target) < 1e-9 * (high - low):
+        return branch, None
+    special = {p.index: p for p in branch.special_points}
+    if status == "at special point":
+        last = len(order) - 1
+    elif status in ("stopped", "at bound"):
+        corners = [k for k, i in enumerate(order) if i in special and special[int(i)].kind in ("CO", "BP")]
+        calm = [k for k, i in enumerate(order) if branch.n_unstable[i] == 0]
+        last = corners[-1] if corners and corners[-1] >= len(order) - 2 else max(calm[-1] if calm else 0, 0)
+    else:
+        return branch, None
+    at = int(order[last])
+    before = int(order[max(last - 1, 0)])
+    travel = branch.problem.difference(branch.states[at], branch.states[before])
+    point: Point = special.get(at, branch.row(at))
+    kind = point.kind if isinstance(point, SpecialPoint) else "lost"
+    if kind == "CO":
+        along = branch.problem.difference(branch.states[int(order[last + 1])], branch.states[at])
+    else:
+        along = _critical(branch.problem, point, kind, travel)
+    along = along * _ASIDE / max(float(np.max(np.abs(along) / branch.problem.state_scale)), 1e-300)
+    cut = sliced(branch, *sorted((int(order[0]), at)))
+    return replace(cut, ends=[(status, sentence)]), _Lost(point, kind, along)
+
+
+def _critical(problem: Any, point: Any, kind: str, travel: Array) -> Array:
+    """Return the direction in which a rest gives way: its null vector the way of travel, or the real part of a mode."""
+    vector = getattr(point, "vectors", {}).get("v")
+    if vector is None:
+        local = Local(problem, point.state, point.parameters, (), False)
+        vector = _mode(problem, local, kind)
+    scale = problem.state_scale
+    onward = float((vector / scale) @ (travel / scale))
+    size = float(np.linalg.norm(vector / scale) * np.linalg.norm(travel / scale))
+    if abs(onward) > 0.1 * size:
+        return vector * np.sign(onward)
+    return vector * np.sign(vector[np.argmax(np.abs(vector))])
+
+
+def _mode(problem: Any, local: Local, kind: str) -> Array:
+    jac: Any = local.raw_jac
+    jac = jac.toarray() if hasattr(jac, "toarray") else jac
+    pencil = local.pencil
+    if kind == "HB" and pencil.mass is not None and pencil.damping is not None:
+        ev = quadratic_eigenvalues(pencil.mass, pencil.damping, -jac)
+        s = ev[np.argmax(np.where(ev.imag > 0, ev.real, -np.inf))]
+        _, _, vh = np.linalg.svd(s**2 * pencil.mass + s * pencil.damping - jac)
+        return vh[-1].conj().real
+    values, vectors = np.linalg.eig(jac if pencil.mass is None else np.linalg.solve(pencil.mass, jac))
+    return vectors[:, np.argmax(values.real)].real
+
+
+def _released(problem: Any, point: Point, landing: Landing, kind: str) -> tuple[float | None, str]:
+    """Return the potential energy released at fixed load, or None and why it is not defined."""
+    if landing.point is None:
+        return None, "the motion does not rest"
+    values = landing.point.parameters
+    states = (landing.point.state,) if kind == "CO" else (point.state, landing.point.state)
+    for x in states:
+        reason = without_potential(problem, x, values)
+        if reason:
+            return None, reason
+    energies = potential_energy(problem, np.array([point.state, landing.point.state]), values, loads=True)
+    return float(energies[0] - energies[1]), ""

@@ -1,0 +1,382 @@
+"""Margins: the energy that lifts a mechanism from its rest over the lowest pass that leads away from it.
+
+The pass is an equilibrium with one unstable direction (a saddle of the potential energy) from which one of the two
+descents ends at the rest; the descents are followed to where they end (`numerics.creep`), nothing is taken for granted.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from mjcont.curves.continuation import check_bounds, continue_equilibria, hold_rigid_modes
+from mjcont.curves.search import find_equilibria
+from mjcont.errors import MjcontError, ParameterError
+from mjcont.mechanism.energy import potential_energy, total_energy
+from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import Local
+from mjcont.numerics.search.creep import creep, rates
+from mjcont.results.branch import Branch, Point, show
+from mjcont.results.loadpaths import sliced
+
+Saddles = Branch | Point | Sequence[Any]
+_ASIDE = 1e-2
+_SAME = 1e-4
+_EQUAL = 1e-9
+_STARTS = 100
+# distance of rests along a branch, in its largest steps
+_APART = 0.25
+# so many of the lowest passes found by a search are followed
+_PASSES = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Barrier:
+    """The energy barrier that guards a rest.
+
+    Attributes
+    ----------
+    energy : in J; infinite where no pass is known, zero at a fold.
+    rest : the equilibrium at rest.
+    saddle : the pass, or None.
+    beyond : the state at which the descent on its far side ends, or None.
+    tried : number of passes looked at.
+    message : a sentence.
+    """
+
+    energy: float
+    rest: Point
+    saddle: Point | None
+    beyond: Array | None = field(repr=False)
+    tried: int = 0
+    message: str = ""
+
+    def __str__(self) -> str:
+        """Return the energy and where the pass is."""
+        where = f" over the pass at {self.saddle}" if self.saddle is not None else ""
+        return f"energy barrier {self.energy:.6g} J{where}: {self.message}"
+
+
+@dataclass(frozen=True, slots=True)
+class BarrierCurve:
+    """Energy barriers along the stable part of a branch.
+
+    Attributes
+    ----------
+    name, unit : the parameter.
+    values, energy : (m,) its values, and the barriers in J, in order along the branch.
+    rows : (m,) rows of the branch that they belong to: stable ones some way apart, and the folds.
+    barriers : one a value.
+    """
+
+    name: str
+    unit: str
+    values: Array
+    energy: Array
+    rows: Array
+    barriers: Sequence[Barrier] = field(repr=False)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the barrier against the parameter and return the axes."""
+        from mjcont.drawing.pathplots import draw_barriers
+
+        return draw_barriers(self, ax)
+
+    def __str__(self) -> str:
+        """Return the range of the parameter and of the barrier."""
+        known = self.energy[np.isfinite(self.energy)]
+        span = f"{show(self.values.min(), self.unit)} .. {show(self.values.max(), self.unit)}"
+        levels = f"{known.min():.6g} .. {known.max():.6g} J" if len(known) else "no pass known"
+        return f"energy barrier, {self.name} = {span} ({len(self.values)} rests): {levels}"
+
+
+@dataclass(frozen=True, slots=True)
+class BarrierMap:
+    """Energy barriers over a grid of two parameters.
+
+    Attributes
+    ----------
+    names, units : of the two parameters.
+    x, y : (nx,) and (ny,) their values.
+    energy : (ny, nx) barriers in J: NaN where the rest does not exist, infinite where no pass is known.
+    """
+
+    names: tuple[str, str]
+    units: tuple[str, str]
+    x: Array
+    y: Array
+    energy: Array
+
+    def plot(self, ax: Any = None, *, levels: Any = 10) -> Any:
+        """Draw contours of the barrier and return the axes."""
+        from mjcont.drawing.pathplots import draw_map
+
+        return draw_map(self, ax, levels)
+
+    def __str__(self) -> str:
+        """Return the grid and the range of the barrier."""
+        known = self.energy[np.isfinite(self.energy)]
+        levels = f"{known.min():.6g} .. {known.max():.6g} J" if len(known) else "none known"
+        lost = int(np.count_nonzero(np.isnan(self.energy)))
+        return f"energy barrier over {self.names[0]} and {self.names[1]}, {self.energy.shape[1]} x " \
+               f"{self.energy.shape[0]}: {levels}; no rest at {lost}"
+
+
+def energy_barrier(point: Point, saddles: Saddles | None = None) -> Barrier:
+    """Return the energy barrier between a rest and the lowest pass that leads away from it.
+
+    Parameters
+    ----------
+    point : Point
+        A stable equilibrium.
+    saddles : branch or point, or a sequence of them, optional
+        Where to look for the pass: branches that hold the other parameters at the rest's values. By default every
+        equilibrium is searched for.
+
+    Raises
+    ------
+    MjcontError
+        If the point is unstable, or its loads have no potential (a follower force).
+    """
+    problem, values = _problem(point), point.parameters
+    if point.n_unstable:
+        raise MjcontError(f"an energy barrier guards a rest, but this point is unstable: {point}")
+    total_energy(problem, point.state[None], values)
+    return _barrier(problem, point, _candidates(problem, point, saddles))
+
+
+def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: bool = True) -> BarrierCurve:
+    """Return the energy barriers along the stable points of a branch.
+
+    Rows closer to the last than a quarter of the branch's largest step are passed over, but for the branch's start,
+    special points and the last one.
+    Passes are taken from the branch itself, from `saddles`, and from a search over all equilibria at the ends and in
+    the middle of the range, whose passes are followed from there. A pass that is on none of these is missed.
+
+    Raises
+    ------
+    MjcontError
+        If nothing on the branch is stable, or its loads have no potential.
+    """
+    (name, *others) = branch.free
+    if branch.kind != "equilibria" or others:
+        raise MjcontError(f"barrier_along takes a branch of equilibria in one parameter, not a {branch.kind}")
+    labels = branch.labels
+    rows = [i for i in range(len(branch)) if branch.stability[i] == "stable" or labels[i].startswith("LP")]
+    if not any(branch.stability[i] == "stable" for i in rows):
+        raise MjcontError("nothing on the branch is stable")
+    rows = _spaced(branch, rows, labels)
+    rests = [branch.row(i) for i in rows]
+    folds = [labels[i].startswith("LP") for i in rows]
+    barriers = _along(branch, rests, folds, _listed(saddles), search)
+    energy = np.array([b.energy for b in barriers])
+    values = np.array([p[name] for p in rests])
+    return BarrierCurve(name, branch.unit(name), values, energy, np.array(rows), tuple(barriers))
+
+
+def _spaced(branch: Branch, rows: Sequence[int], labels: Sequence[str]) -> list[int]:
+    """Return those of some rows that lie some way apart along the branch, with start, special points and the last."""
+    problem: Any = branch.problem
+    if problem is None:
+        return list(rows)
+    ((name, (low, high)),) = branch.free.items()
+    steps = problem.difference_each(branch.states[1:], branch.states[:-1]) / problem.state_scale
+    lengths = np.sqrt((steps**2).sum(axis=1) + (np.diff(branch[name]) / (high - low)) ** 2)
+    s = np.concatenate([[0.0], np.cumsum(lengths)])
+    apart = _APART * branch.settings.get("ds_max", Settings().ds_max)
+    kept = [rows[0]]
+    for i in rows[1:]:
+        if s[i] - s[kept[-1]] >= apart or labels[i] or i in (branch.start_index, rows[-1]):
+            kept.append(i)
+    return kept
+
+
+def barrier_map(point: Point, grid: Mapping[str, Any], *, search: bool = True) -> BarrierMap:
+    """Return the energy barriers of a rest over a grid of two parameters.
+
+    The rest is followed in the second parameter, and from each of its values in the first, as far as it is stable.
+
+    Parameters
+    ----------
+    point : Point
+        A stable equilibrium; its second parameter is followed to the values of the grid.
+    grid : mapping of two parameters to values
+    search : bool
+        Whether the lowest passes from the point itself are searched for and followed, too. A pass that is neither on
+        these nor on the branches of the rest is missed.
+
+    Raises
+    ------
+    ParameterError, MjcontError
+        See their messages.
+    """
+    if len(grid) != 2:
+        raise ParameterError(f"barrier_map takes two parameters with their values, got {', '.join(grid) or 'none'}")
+    (x, xs), (y, ys) = ((n, np.unique(np.asarray(v, dtype=float))) for n, v in grid.items())
+    if len(xs) < 2 or len(ys) < 2:
+        raise ParameterError("each parameter of a barrier_map needs at least two values")
+    problem = _problem(point)
+    bounds = min(ys[0], point[y]), max(ys[-1], point[y])
+    across = continue_equilibria(problem, y, bounds, point)
+    passes = _lowest(problem, point) if search else []
+    passages = [continue_equilibria(problem, y, bounds, p) for p in passes]
+    energy = np.full((len(ys), len(xs)), math.nan)
+    units = (problem.parameter(x).unit, problem.parameter(y).unit)
+    for j, value in enumerate(ys):
+        rest = _rest_at(across, y, float(value))
+        if rest is None:
+            continue
+        low, high = check_bounds(problem, x, None)
+        line = continue_equilibria(problem, x, (min(low, xs[0]), max(high, xs[-1])), rest)
+        found = [(i, _rest_at(line, x, float(v))) for i, v in enumerate(xs)]
+        rests = [(i, p) for i, p in found if p is not None]
+        others = [p for b in passages for p in b.at(**{y: float(value)}) if p.n_unstable == 1]
+        lines = [continue_equilibria(problem, x, line.free[x], p) for p in others]
+        barriers = _along(line, [p for _, p in rests], [False] * len(rests), lines, False)
+        for (i, _), b in zip(rests, barriers, strict=True):
+            energy[j, i] = b.energy
+    return BarrierMap((x, y), units, xs, ys, energy)
+
+
+def _problem(point: Point) -> Any:
+    if point.problem is None:
+        raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
+    return hold_rigid_modes(point.problem, point.state, point.parameters)[0]
+
+
+def _listed(saddles: Saddles | None) -> list[Any]:
+    if saddles is None:
+        return []
+    return [saddles] if isinstance(saddles, Branch | Point) else list(saddles)
+
+
+def _rest_at(branch: Branch, name: str, value: float) -> Point | None:
+    """Return the point at a value on the stable run of a branch that holds its start."""
+    i = j = branch.start_index
+    while i > 0 and branch.n_unstable[i - 1] == 0 and not branch.labels[i].startswith("LP"):
+        i -= 1
+    while j < len(branch) - 1 and branch.n_unstable[j + 1] == 0 and not branch.labels[j].startswith("LP"):
+        j += 1
+    if j == i:
+        return branch.row(i) if branch[name][i] == value else None
+    stable = [p for p in sliced(branch, i, j).at(**{name: value}) if p.n_unstable == 0]
+    return stable[0] if stable else None
+
+
+def _along(
+    branch: Branch, rests: Sequence[Point], folds: Sequence[bool], saddles: Sequence[Any], search: bool
+) -> list[Barrier]:
+    """Return the barriers of rests of a branch; passes found by a search are followed for the rests that come after."""
+    if not rests:
+        return []
+    problem = _problem(rests[0])
+    (name,) = branch.free
+    total_energy(problem, np.array([rests[0].state, rests[-1].state]), rests[0].parameters)
+    known: list[Any] = [branch, *saddles]
+    if search:
+        for i in dict.fromkeys((0, len(rests) // 2, len(rests) - 1)):
+            known += _further(problem, branch, rests[i], known)
+    found = []
+    for rest, fold in zip(rests, folds, strict=True):
+        if fold:
+            found.append(Barrier(0.0, rest, rest, None, 0, "a fold: the rest meets its pass"))
+        else:
+            found.append(_barrier(problem, rest, _candidates(problem, rest, known)))
+    return found
+
+
+def _further(problem: Any, branch: Branch, rest: Point, known: Sequence[Any]) -> list[Branch]:
+    """Return branches through the lowest passes from a rest that are on none of the known ones."""
+    found: list[Branch] = []
+    (name,) = branch.free
+    for p in _lowest(problem, rest):
+        there = _candidates(problem, rest, [*known, *found])
+        if not any(_same(problem, p.state, q.state, rest.parameters) for q in there):
+            found.append(continue_equilibria(problem, name, branch.free[name], p))
+    return found
+
+
+def _lowest(problem: Any, rest: Point) -> list[Point]:
+    """Return the lowest passes that lead from a rest elsewhere, found by a search over all equilibria."""
+    barriers = _barriers(problem, rest, _candidates(problem, rest, None))
+    return [b.saddle for b in islice(barriers, _PASSES) if b.saddle is not None]
+
+
+def _candidates(problem: Any, rest: Point, saddles: Saddles | None) -> list[Point]:
+    """Return the equilibria with one unstable direction at the rest's parameters."""
+    if saddles is None:
+        points: list[Point] = list(find_equilibria(problem, rest.parameters, starts=_STARTS).points)
+        return [p for p in points if p.n_unstable == 1]
+    points = []
+    for item in _listed(saddles):
+        if isinstance(item, Branch):
+            (name, *others) = item.free
+            if others:
+                raise ParameterError("a pass is looked for on branches of equilibria in one parameter, not on loci")
+            _same_load(item.fixed, rest.parameters)
+            points += item.at(**{name: rest.parameters[name]})
+        elif isinstance(item, Point):
+            _same_load(item.parameters, rest.parameters)
+            points.append(item)
+        else:
+            raise ParameterError(f"saddles must be branches or points, got a {type(item).__name__}")
+    return [p for p in points if p.n_unstable == 1]
+
+
+def _same_load(given: Values, wanted: Values) -> None:
+    for n, v in given.items():
+        if n in wanted and not math.isclose(v, wanted[n], rel_tol=_EQUAL, abs_tol=1e-12):
+            raise ParameterError(f"the pass is at {n} = {v:g}, the rest at {n} = {wanted[n]:g}: their loads must agree")
+
+
+def _barrier(problem: Any, rest: Point, passes: Sequence[Point]) -> Barrier:
+    """Return the barrier over the lowest pass from which a descent ends at the rest."""
+    return next(_barriers(problem, rest, passes), Barrier(math.inf, rest, None, None, len(passes), "no pass is known"))
+
+
+def _barriers(problem: Any, rest: Point, passes: Sequence[Point]) -> Iterator[Barrier]:
+    """Yield the barriers over the passes that lead from the rest elsewhere, from the lowest up."""
+    if not passes:
+        return
+    values = rest.parameters
+    states = np.array([rest.state, *(p.state for p in passes)])
+    energies = potential_energy(problem, states, values, loads=True)
+    heights = energies[1:] - energies[0]
+    order = [i for i in np.argsort(heights) if heights[i] > 0.0]
+    for tried, i in enumerate(order, 1):
+        ends = _descents(problem, passes[i], rest)
+        back = [_same(problem, e, rest.state, values) for e in ends]
+        if any(back) and not _same(problem, ends[0], ends[1]):
+            beyond = ends[1] if back[0] else ends[0]
+            sentence = "its descents end at the rest" + (", full turns apart" if all(back) else " and elsewhere")
+            yield Barrier(float(heights[i]), rest, passes[i], beyond, tried, sentence)
+
+
+def _descents(problem: Any, saddle: Point, rest: Point) -> tuple[Array, Array]:
+    """Return where the descents from a pass along both its unstable directions end."""
+    values, scale = rest.parameters, problem.state_scale
+    s, vectors, _ = rates(Local(problem, saddle.state, values, (), False))
+    v = vectors[:, np.argmax(s.real)].real
+    v = v / np.max(np.abs(v) / scale)
+    distance = float(np.max(np.abs(problem.difference(saddle.state, rest.state)) / scale))
+    aside = min(_ASIDE, 0.1 * distance)
+    first, second = (
+        creep(problem, problem.retract(saddle.state, sign * aside * v), values).x for sign in (1.0, -1.0)
+    )
+    return first, second
+
+
+def _same(problem: Any, a: Array, b: Array, values: Values | None = None) -> bool:
+    """Whether two states are the same; with parameter values also if they are full turns apart."""
+    step = problem.difference(a, b)
+    if values is not None:
+        periods = problem.periods(b, values)
+        turning = np.isfinite(periods)
+        step[turning] -= periods[turning] * np.round(step[turning] / periods[turning])
+    return bool(np.max(np.abs(step) / problem.state_scale) < _SAME)

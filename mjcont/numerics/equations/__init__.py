@@ -1,0 +1,1 @@
+"""Problems as equations: the contract, systems, bordered solves, Newton, differences."""

@@ -1,0 +1,131 @@
+"""Linear solves with (n+k) x (n+k) matrices, dense or sparse, that also tell the sign of the determinant."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.linalg import lapack
+from scipy.sparse.linalg import splu
+
+from mjcont.numerics.equations.problem import Array
+
+_TINY = 1e-300
+
+
+def largest_in_rows(matrix: Any) -> Array:
+    """Return the largest absolute value in each row, (m,)."""
+    if isinstance(matrix, np.ndarray):
+        return np.abs(matrix).max(axis=1)
+    return abs(matrix).max(axis=1).toarray().ravel()
+
+
+def row_scale(matrix: Any, guard: float = 1e-8) -> Array:
+    """Return 1 / (largest entry of each row), rows below `guard` of the largest counting as that large, (m,)."""
+    largest = largest_in_rows(matrix)
+    top = float(largest.max()) if largest.size else 1.0
+    return 1.0 / np.maximum(largest, max(guard * top, _TINY))
+
+
+class Factored:
+    """LU factors of a square matrix, rows equilibrated."""
+
+    def __init__(self, matrix: Any) -> None:
+        self._rows = row_scale(matrix)
+        self._sparse = sparse.issparse(matrix)
+        if self._sparse:
+            scaled = sparse.csc_matrix(sparse.diags(self._rows) @ matrix)
+            try:
+                self._lu = splu(scaled)
+            except RuntimeError:
+                shift = 1e-14 * sparse.identity(scaled.shape[0], format="csc")
+                self._lu = splu(sparse.csc_matrix(scaled + shift))
+            self._singular = False
+        else:
+            self._lu, self._pivots, info = lapack.dgetrf(self._rows[:, None] * matrix)
+            self._singular = info > 0
+            if self._singular:
+                pivots = self._lu.diagonal()
+                self._lu[pivots == 0.0, pivots == 0.0] = 1e-16
+
+    @property
+    def sign(self) -> float:
+        """Sign of the determinant (0 where a pivot vanished)."""
+        if self._singular:
+            return 0.0
+        if self._sparse:
+            negative = np.count_nonzero(self._lu.U.diagonal() < 0)
+            return _parity(self._lu.perm_r) * _parity(self._lu.perm_c) * (1.0 - 2.0 * (negative % 2))
+        swaps = sum(i != p for i, p in enumerate(self._pivots.tolist()))
+        return 1.0 - 2.0 * ((swaps + np.count_nonzero(self._lu.diagonal() < 0.0)) % 2)
+
+    def solve(self, rhs: Array) -> Array:
+        """Return the solution of A z = rhs."""
+        scaled = self._rows * rhs if rhs.ndim == 1 else self._rows[:, None] * rhs
+        if self._sparse:
+            return self._lu.solve(scaled)
+        return lapack.dgetrs(self._lu, self._pivots, scaled)[0]
+
+    def last_column(self) -> Array:
+        """Return the last column of the inverse, up to a positive factor: z with A z = e, e the last unit vector."""
+        rhs = np.zeros(len(self._rows))
+        rhs[-1] = 1.0
+        return self._lu.solve(rhs) if self._sparse else lapack.dgetrs(self._lu, self._pivots, rhs)[0]
+
+    def solve_transposed(self, rhs: Array) -> Array:
+        """Return the solution of A^T z = rhs."""
+        if self._sparse:
+            return self._rows * self._lu.solve(rhs, trans="T")
+        return self._rows * lapack.dgetrs(self._lu, self._pivots, rhs, trans=1)[0]
+
+
+def _parity(permutation: Array) -> float:
+    """Return +1 for an even permutation, -1 for an odd one."""
+    seen = np.zeros(len(permutation), dtype=bool)
+    odd = False
+    for start in range(len(permutation)):
+        length, at = 0, start
+        while not seen[at]:
+            seen[at] = True
+            at = permutation[at]
+            length += 1
+        odd ^= length > 0 and length % 2 == 0
+    return -1.0 if odd else 1.0
+
+
+def border(matrix: Any, columns: Array, rows: Array, corner: Array | None = None) -> Any:
+    """Return [[A, B], [C, D]] with columns B (m, k), rows C (l, n) and corner D (l, k), zero by default."""
+    corner = np.zeros((rows.shape[0], columns.shape[1])) if corner is None else corner
+    if sparse.issparse(matrix):
+        blocks = [
+            [matrix, sparse.csc_matrix(columns) if columns.shape[1] else None],
+            [sparse.csc_matrix(rows), sparse.csc_matrix(corner) if columns.shape[1] else None],
+        ]
+        if not columns.shape[1]:
+            blocks = [[b[0]] for b in blocks]
+        return sparse.bmat(blocks, format="csc")
+    m, n = matrix.shape
+    out = np.empty((m + rows.shape[0], n + columns.shape[1]))
+    out[:m, :n], out[:m, n:], out[m:, :n], out[m:, n:] = matrix, columns, rows, corner
+    return out
+
+
+def null_vectors(matrix: Any, count: int = 1) -> tuple[Array, Array]:
+    """Return the right (n, count) and left (m, count) singular vectors of the smallest singular values.
+
+    `matrix` is m x n with n >= m; for n > m the right space includes the kernel (count + n - m columns). Sparse
+    square matrices use inverse iteration on A A^T from a fixed start.
+    """
+    if not sparse.issparse(matrix):
+        u, _, vt = np.linalg.svd(matrix)
+        m, n = matrix.shape
+        return vt[n - count - (n - m) :].T[:, ::-1].copy(), u[:, m - count :][:, ::-1].copy()
+    n = matrix.shape[0]
+    factored = Factored(matrix)
+    v = np.cos(1.0 + np.arange(n * count, dtype=float)).reshape(n, count)
+    w = v
+    for _ in range(4):
+        w = np.linalg.qr(np.column_stack([factored.solve_transposed(c) for c in v.T]))[0]
+        v = np.linalg.qr(np.column_stack([factored.solve(c) for c in w.T]))[0]
+    return v, w

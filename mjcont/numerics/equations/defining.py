@@ -1,0 +1,290 @@
+"""Conditions that define special points, as minimally augmented (bordered) systems.
+
+With J = df/dx in scaled unknowns, rows equilibrated, and borders b, c near its left and right null vectors:
+
+    fold            [J b; c' 0] [v; g] = [0; 1],                         g = 0
+    Hopf            [P(s) b; c' 0] [q; g] = [0; 1] over R[s]/(s^2 + k),  g = g0 + s g1 = 0
+    branch point    [J f_p b; C' 0] [V; g1 g2] = [0; I],                 g1 = g2 = 0, with f + a d = 0
+    cusp            fold and w . B(v, v) = 0
+    Bogdanov-Takens fold and w . C v = 0  (w . v for a first-order system)
+    generalised Hopf, zero-Hopf, Hopf-Hopf: the conditions together
+
+The Hopf condition is analytic in k = omega^2 and so passes k = 0; for k < 0 it describes neutral saddles. Source:
+Govaerts, Numerical Methods for Bifurcations of Dynamical Equilibria (SIAM 2000), chapters 3, 4 and 6, written here
+for the quadratic pencil P(s) = s^2 M + s C + K.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+
+from mjcont.numerics.equations.bordered import Factored, border, null_vectors, row_scale
+from mjcont.numerics.equations.differences import bilinear_gradient, directional, second_form
+from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.system import ROW_GUARD, Free, Local, System, equation_scale
+
+_SLOW_TIME = 0.1
+_GENERIC = np.array([0.8, 0.6])
+
+
+class Fold:
+    """J is singular: g = 0 with [J b; c' 0] [v; g] = [0; 1]."""
+
+    count, aux, unfolds = 1, (), False
+
+    def __init__(self, local: Local) -> None:
+        self.rows = equation_scale(local)
+        v, w = null_vectors(self._scaled(local))
+        self.b, self.c = w[:, 0], v[:, 0]
+        self._cache: tuple[Local, Array, Array, float] | None = None
+
+    def _scaled(self, local: Local) -> Array:
+        return sparse.diags(self.rows) @ local.jac if sparse.issparse(local.jac) else self.rows[:, None] * local.jac
+
+    def vectors(self, local: Local) -> tuple[Array, Array, float]:
+        """Return (v, w, g) in equilibrated scaled unknowns."""
+        if self._cache is None or self._cache[0] is not local:
+            lu = self.factored(local)
+            rhs = np.zeros(len(self.b) + 1)
+            rhs[-1] = 1.0
+            right, left = lu.solve(rhs), lu.solve_transposed(rhs)
+            self._cache = (local, right[:-1], left[:-1], float(right[-1]))
+        return self._cache[1:]
+
+    def factored(self, local: Local) -> Factored:
+        """Return the factors of [J b; c' 0]."""
+        return Factored(border(self._scaled(local), self.b[:, None], self.c[None]))
+
+    def physical(self, local: Local) -> tuple[Array, Array]:
+        """Return the null vectors v and w of df/dx in physical units."""
+        v, w, _ = self.vectors(local)
+        return v * local.problem.state_scale, w * self.rows
+
+    def value(self, local: Local, aux: Array) -> Array:
+        """Return g."""
+        return np.array([self.vectors(local)[2]])
+
+    def gradient(self, local: Local, system: System, y: Array) -> Array:
+        """Return dg = -w' dJ v over (x, free parameters), (1, n + number free)."""
+        v, w = self.physical(local)
+        out = np.empty(system.n + len(system.free))
+        out[: system.n] = -bilinear_gradient(local.problem, local.x, local.values, w, v)
+        for i, p in enumerate(system.free):
+            slope = parameter_slope(lambda at: float(w @ directional(at.problem, at.x, at.values, v, 1)), local, p.name)
+            out[system.n + i] = -slope * p.slope(float(y[i]))
+        return out[None]
+
+    def update(self, local: Local, aux: Array) -> None:
+        """Take the present null vectors, normalised, as borders."""
+        v, w, _ = self.vectors(local)
+        self.b, self.c = w / np.linalg.norm(w), v / np.linalg.norm(v)
+        self._cache = None
+
+
+def parameter_slope(function: Callable[[Local], float], local: Local, name: str) -> float:
+    """Return d function / d p for a parameter, in physical units, by differences in p."""
+    span = local.spans[local.wrt.index(name)] if local.spans else None
+    rule, h = local.problem.parameter_stencil(name, local.values[name], span)
+    total = 0.0
+    for offset, weight in zip(rule.offsets, rule.weights, strict=True):
+        values = {**local.values, name: local.values[name] + offset * h}
+        total += weight * function(Local(local.problem, local.x, values, local.wrt, local.accurate))
+    return total / h
+
+
+class BranchPoint:
+    """[J f_p] has rank n - 1, with the equilibrium equations unfolded by a: f + a d = 0.
+
+    Without symmetry no curve of branch points in two parameters exists; a then leaves zero, which callers check.
+    """
+
+    count, aux, unfolds = 2, (0.0,), True
+
+    def __init__(self, local: Local, parameter: Free) -> None:
+        self.parameter = parameter
+        self.rows = equation_scale(local)
+        if sparse.issparse(local.jac):
+            v, w = null_vectors(self._square(local))
+            self.c = np.zeros((2, len(v) + 1))
+            self.c[0, :-1], self.c[1, -1] = v[:, 0], 1.0
+        else:
+            v, w = null_vectors(self._wide(local))
+            self.c = v.T
+        self.b = w[:, 0]
+        self.direction = self.b / self.rows
+
+    def _square(self, local: Local) -> Any:
+        return sparse.diags(self.rows) @ local.jac if sparse.issparse(local.jac) else self.rows[:, None] * local.jac
+
+    def _wide(self, local: Local) -> Any:
+        slope = self.parameter.slope(self.parameter.coordinate(local.values[self.parameter.name]))
+        column = (local.par[:, 0] * slope * self.rows)[:, None]
+        return border(self._square(local), column, np.zeros((0, len(self.rows))))
+
+    def _solve(self, local: Local) -> tuple[Array, Array, Array]:
+        n = len(self.b)
+        lu = Factored(border(self._wide(local), self.b[:, None], self.c))
+        rhs = np.zeros((n + 2, 2))
+        rhs[n, 0] = rhs[n + 1, 1] = 1.0
+        right = np.column_stack([lu.solve(r) for r in rhs.T])
+        left = lu.solve_transposed(np.append(np.zeros(n + 1), 1.0))
+        return right[: n + 1], left[:n], right[n + 1]
+
+    def null(self, local: Local) -> tuple[Array, Array]:
+        """Return the kernel of [J f_p] in scaled unknowns, orthonormal (n + 1, 2), and the left vector (n,)."""
+        right, left, _ = self._solve(local)
+        return np.linalg.qr(right)[0], left * self.rows
+
+    def value(self, local: Local, aux: Array) -> Array:
+        """Return (g1, g2)."""
+        return self._solve(local)[2]
+
+    def update(self, local: Local, aux: Array) -> None:
+        """Take the present null vectors as borders."""
+        right, left, _ = self._solve(local)
+        self.c, self.b = np.linalg.qr(right)[0].T.copy(), left / np.linalg.norm(left)
+
+
+class Hopf:
+    """P(s) is singular over R[s]/(s^2 + k): a pair of eigenvalues with sum zero and product k = omega^2.
+
+    The auxiliary unknown is asinh(k / rate^2): smooth through k = 0, and logarithmic where k grows by decades.
+    """
+
+    count, unfolds = 2, False
+
+    def __init__(self, local: Local, square: float) -> None:
+        self.rate = float(np.sqrt(abs(square))) if square else 1.0
+        self.aux = (float(np.arcsinh(square / self.rate**2)),)
+        self._prepare(local, square)
+
+    def _prepare(self, local: Local, square: float) -> None:
+        """Choose time and row scales and borders for the point at hand.
+
+        Of the two-dimensional null space of the block matrix that q = q0 + s q1 is taken whose q0 is largest; it
+        generates the others over the algebra, also for k = 0. Likewise the left vector p = w1 + s w0. The borders
+        are the conjugates (s -> -s) of q and p, or themselves where s is real: c'q and b'p are then units.
+        """
+        self.inner = self._time_scale(local, square)
+        self.rows = self._row_scale(local)
+        n, k = local.problem.n, square / self.inner**2
+        v, w = null_vectors(self._block(local, k), 2)
+        if k >= 0:
+            v, w = v @ np.linalg.svd(v[:n])[2][0], w @ np.linalg.svd(w[n:])[2][0]
+        else:  # a vector with parts along both real eigenvectors
+            v, w = v @ _GENERIC, w @ _GENERIC
+        sign = -1.0 if k >= 0 else 1.0
+        self.c0, self.c1, self.b0, self.b1 = v[:n], sign * v[n:], w[n:], sign * w[:n]
+
+    def _time_scale(self, local: Local, square: float) -> float:
+        """Return omega, or where that vanishes a tenth of the rate at which the system moves."""
+        mass, damping, stiffness = (float(np.abs(m).max()) for m in dense_pencil(local))
+        typical = np.sqrt(stiffness / mass) if mass > 0 else stiffness / damping
+        return float(np.hypot(np.sqrt(abs(square)), _SLOW_TIME * min(typical, self.rate)))
+
+    def _row_scale(self, local: Local) -> Array:
+        mass, damping, stiffness = self._unscaled(local)
+        return row_scale(np.abs(stiffness) + np.abs(damping) + np.abs(mass), ROW_GUARD)
+
+    def _unscaled(self, local: Local) -> tuple[Array, Array, Array]:
+        scale = local.problem.state_scale
+        mass, damping, stiffness = dense_pencil(local)
+        return self.inner**2 * mass * scale, self.inner * damping * scale, stiffness * scale
+
+    def _block(self, local: Local, k: float) -> Array:
+        mass, damping, stiffness = (self.rows[:, None] * a for a in self._unscaled(local))
+        even, odd = stiffness - k * mass, damping
+        return np.block([[even, -k * odd], [odd, even]])
+
+    def _bordered(self, local: Local, k: float) -> Array:
+        columns = np.column_stack([np.append(self.b0, self.b1), np.append(-k * self.b1, self.b0)])
+        rows = np.array([np.append(self.c0, -k * self.c1), np.append(self.c1, self.c0)])
+        return border(self._block(local, k), columns, rows)
+
+    def value(self, local: Local, aux: Array) -> Array:
+        """Return (g0, g1)."""
+        return self._solve(local, self.square(aux) / self.inner**2)
+
+    def _solve(self, local: Local, k: float) -> Array:
+        rhs = np.zeros(2 * len(self.b0) + 2)
+        rhs[-2] = 1.0
+        return Factored(self._bordered(local, k)).solve(rhs)[-2:]
+
+    def square(self, aux: Array) -> float:
+        """Return omega^2 (negative at a neutral saddle), in 1/s^2."""
+        return float(np.sinh(aux[0])) * self.rate**2
+
+    def update(self, local: Local, aux: Array) -> None:
+        """Take the present null vectors as borders."""
+        self._prepare(local, self.square(aux))
+
+
+def dense_pencil(local: Local) -> tuple[Array, Array, Array]:
+    """Return (M, C, K) as dense arrays, with zeros and the identity for a first-order system."""
+    pencil, n = local.pencil, local.problem.n
+    stiffness = pencil.stiffness.toarray() if sparse.issparse(pencil.stiffness) else pencil.stiffness
+    mass = np.zeros((n, n)) if pencil.mass is None else pencil.mass
+    damping = np.eye(n) if pencil.damping is None else pencil.damping
+    return mass, damping, stiffness
+
+
+class FoldCoefficient:
+    """Cusp: w . B(v, v) / 2 = 0 for the null vectors of a `Fold` of the same system."""
+
+    count, aux, unfolds = 1, (), False
+
+    def __init__(self, fold: Fold, local: Local) -> None:
+        self.fold = fold
+        v, w, _ = fold.vectors(local)
+        self.weight = float(np.linalg.norm(v) ** 2 * np.linalg.norm(w))
+
+    def value(self, local: Local, aux: Array) -> Array:
+        """Return the coefficient with the borders' normalisation."""
+        v, w = self.fold.physical(local)
+        return np.array([0.5 * w @ second_form(local.problem, local.x, local.values, v, v)]) / self.weight
+
+    def update(self, local: Local, aux: Array) -> None:
+        """Nothing of its own to renew."""
+
+
+class DoubleZero:
+    """Bogdanov-Takens: w . C v = 0 on a fold (C = I for a first-order system)."""
+
+    count, aux, unfolds = 1, (), False
+
+    def __init__(self, fold: Fold, local: Local) -> None:
+        self.fold = fold
+        v, w = fold.physical(local)
+        damping = dense_pencil(local)[1]
+        self.weight = float(np.abs(w) @ np.abs(damping) @ np.abs(v)) or 1.0
+
+    def value(self, local: Local, aux: Array) -> Array:
+        """Return w . C v."""
+        v, w = self.fold.physical(local)
+        return np.array([w @ dense_pencil(local)[1] @ v]) / self.weight
+
+    def update(self, local: Local, aux: Array) -> None:
+        """Nothing of its own to renew."""
+
+
+class Transversality:
+    """w . f_p = 0 on a fold locus, p its first parameter: the locus turns in the second without a cusp."""
+
+    count, aux, unfolds = 1, (), False
+
+    def __init__(self, fold: Fold, local: Local) -> None:
+        self.fold = fold
+        _, w = fold.physical(local)
+        self.weight = float(np.abs(w) @ np.abs(local.par[:, 0])) or 1.0
+
+    def value(self, local: Local, aux: Array) -> Array:
+        """Return w . f_p."""
+        _, w = self.fold.physical(local)
+        return np.array([w @ local.par[:, 0]]) / self.weight
+
+    def update(self, local: Local, aux: Array) -> None:
+        """Nothing of its own to renew."""

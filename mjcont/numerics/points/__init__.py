@@ -1,0 +1,1 @@
+"""Special points: kinds, tests, location, verification, normal forms, corners."""

@@ -1,0 +1,54 @@
+"""Normal-form coefficients of zero-Hopf and double Hopf points.
+
+    zero-Hopf    s = sign(G200 G011), theta = Re G110 / G200
+    double Hopf  p11, p22, theta = p12 / p22, delta = p21 / p11
+
+with G200 = <p0, B(q0, q0)>, G011 = <p0, B(q1, q1*)>, G110 = <p1, B(q0, q1)>, and p_jk the real parts of the cubic
+coefficients of the amplitude equations. Source: Kuznetsov, Elements of Applied Bifurcation Theory, 3rd ed., sections
+8.5 and 8.6. A second-order problem is taken in its first-order form.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mjcont.numerics.equations.problem import Array, Problem, Values
+from mjcont.numerics.points.normalform import FirstOrder, eigenvectors
+
+
+def zero_hopf_coefficients(problem: Problem, x: Array, values: Values, omega: float) -> dict[str, float]:
+    """Return omega, s and theta of a zero-Hopf point of frequency omega."""
+    form = FirstOrder(problem, x, values)
+    jac = form.jacobian()
+    u, _, vt = np.linalg.svd(jac)
+    q0, p0 = vt[-1], u[:, -1]
+    p0 = p0 / (p0 @ q0)
+    q1, p1 = eigenvectors(jac, omega)
+    g200 = float(p0 @ form.second(q0, q0))
+    g011 = float(p0 @ form.second(q1, q1.conj()).real)
+    g110 = complex(np.vdot(p1, form.second(q0, q1)))
+    return {"omega": omega, "s": float(np.sign(g200 * g011)), "theta": g110.real / g200}
+
+
+def double_hopf_coefficients(
+    problem: Problem, x: Array, values: Values, omega1: float, omega2: float
+) -> dict[str, float]:
+    """Return the frequencies and p11, p22, theta, delta of a double Hopf point."""
+    form = FirstOrder(problem, x, values)
+    jac = form.jacobian()
+    identity = np.eye(len(jac))
+    q1, p1 = eigenvectors(jac, omega1)
+    q2, p2 = eigenvectors(jac, omega2)
+    b = form.second
+    h1100, h0011 = -np.linalg.solve(jac, b(q1, q1.conj())), -np.linalg.solve(jac, b(q2, q2.conj()))
+    h2000 = np.linalg.solve(2j * omega1 * identity - jac, b(q1, q1))
+    h0020 = np.linalg.solve(2j * omega2 * identity - jac, b(q2, q2))
+    h1010 = np.linalg.solve(1j * (omega1 + omega2) * identity - jac, b(q1, q2))
+    h1001 = np.linalg.solve(1j * (omega1 - omega2) * identity - jac, b(q1, q2.conj()))
+    own1 = form.trilinear(q1, q1, q1.conj()) + b(q1.conj(), h2000) + 2.0 * b(q1, h1100)
+    own2 = form.trilinear(q2, q2, q2.conj()) + b(q2.conj(), h0020) + 2.0 * b(q2, h0011)
+    cross1 = form.trilinear(q1, q2, q2.conj()) + b(q2.conj(), h1010) + b(q2, h1001) + b(q1, h0011)
+    cross2 = form.trilinear(q2, q1, q1.conj()) + b(q1.conj(), h1010) + b(q1, h1001.conj()) + b(q2, h1100)
+    p11, p22 = 0.5 * float(np.vdot(p1, own1).real), 0.5 * float(np.vdot(p2, own2).real)
+    p12, p21 = float(np.vdot(p1, cross1).real), float(np.vdot(p2, cross2).real)
+    return {"omega": omega1, "omega2": omega2, "p11": p11, "p22": p22, "theta": p12 / p22, "delta": p21 / p11}

@@ -1,0 +1,166 @@
+"""Corners: points at which a limit, contact, cable or saturation begins or ceases to act and a curve turns sharply.
+
+Equilibria are continuous there but their derivatives are not. A corner is crossed by leaving it along the tangent of
+the other side, in the direction in which the new set of loaded constraints persists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mjcont.numerics.equations.newton import correct
+from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import System
+from mjcont.numerics.points.events import Located
+from mjcont.numerics.step.arclength import CurvePoint, advance, point_from, tangent_at
+
+Piece = Callable[[Array, Array], Hashable]
+
+NEAR = 1e-4
+_LEAVE = 1e-4
+_SHARP = 1e-8
+_EXACT = 1e-13
+# a tangent turns clearly by more than this angle, and at a corner if it does within this distance of it
+_CLEAR = 0.1
+_AT = 1e-5
+# names such as "tendon cable taut" end in a state, which begins and ends
+_BEARERS = ("tendon ", "actuator ", "actuation ")
+_STATES = {
+    "taut": ("goes taut", "goes slack"),
+    "compressed": ("is compressed", "goes slack"),
+    "saturated": ("saturates", "leaves saturation"),
+}
+
+
+def loaded(system: System, x: Array, y: Array) -> frozenset[str]:
+    """Return the names of the limits and contacts that carry load at (x, y)."""
+    problem: Any = system.problem
+    return problem.active(x, system.values(y)) if hasattr(problem, "active") else frozenset()
+
+
+def loaded_at(system: System, point: CurvePoint) -> frozenset[str]:
+    """Return the loaded constraints of a curve point, computed once."""
+    if "loaded" not in point.extra:
+        point.extra["loaded"] = loaded(system, point.x, point.y)
+    return point.extra["loaded"]
+
+
+def describe(before: frozenset[str], after: frozenset[str]) -> str:
+    """Return a sentence on what changes."""
+    parts = [_becomes(name, 0) for name in sorted(after - before)]
+    parts += [_becomes(name, 1) for name in sorted(before - after)]
+    return ", ".join(parts)
+
+
+def _becomes(name: str, ends: int) -> str:
+    subject, _, state = name.rpartition(" ")
+    if state in _STATES and name.startswith(_BEARERS):
+        return f"{subject} {_STATES[state][ends]}"
+    return f"{name} {('engages', 'releases')[ends]}"
+
+
+@dataclass(slots=True)
+class CornerDetector:
+    """Changes of the loaded constraints that a step passes without being refused."""
+
+    structural = False
+
+    system: System
+    settings: Settings
+
+    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether another set of constraints carries load."""
+        return loaded_at(self.system, old) != loaded_at(self.system, new)
+
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+        """Return the corner, by halving the step along the curve."""
+        before, after = loaded_at(self.system, old), loaded_at(self.system, new)
+        while new.s - old.s > _SHARP:
+            middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
+            if isinstance(middle, str):
+                break
+            old, new = (middle, new) if loaded_at(self.system, middle) == before else (old, middle)
+        return [Located("CO", new, new.s - old.s, True, {}, describe(before, after))]
+
+
+def cross(system: System, point: CurvePoint, settings: Settings) -> tuple[CurvePoint, Located] | None:
+    """Return the first point beyond a corner just ahead of `point`, and the corner; None if there is none."""
+    before = loaded_at(system, point)
+    crossed = _cross(system, point, settings, lambda x, y: loaded(system, x, y))
+    if crossed is not None or not getattr(system.problem, "nonsmooth", False):
+        return crossed
+    # no element tells: a contact that passes from a face to an edge keeps its load and its name
+    crossed = _cross(system, point, settings, lambda x, y: _turned(system, point, x, y))
+    if crossed is None or not _sudden(system, point, crossed[1].point):
+        return None
+    names = ", ".join(sorted(before))
+    crossed[1].tolerance = _AT  # no better than the differences that see it
+    crossed[1].note = "the stiffness jumps" + (f" under {names}" if names else "") + crossed[1].note
+    return crossed
+
+
+def _cross(system: System, point: CurvePoint, settings: Settings, piece: Piece) -> tuple[CurvePoint, Located] | None:
+    reach = _distance(system, point, piece)
+    if reach is None:
+        return None
+    x, y = system.move(point.x, point.y, reach * point.tangent)
+    beyond = system.move(x, y, _LEAVE * point.tangent)
+    after = piece(*beyond)
+    tangent = tangent_at(system, system.local(*beyond), beyond[1])
+    if np.any(np.isnan(tangent)):  # no model there carries no load: an edge, not a corner
+        return None
+    # stiff stops hardly yield: a probe must move the state by more than the corner is known to
+    moves = float(np.linalg.norm(tangent[: system.n]))
+    probe = min(max(_LEAVE, 100.0 * _EXACT / max(moves, 1e-300)), 0.5)
+    sides = [s for s in (1.0, -1.0) if piece(*system.move(x, y, s * probe * tangent)) == after]
+    sign = sides[0] if len(sides) == 1 else float(np.sign(tangent @ point.tangent)) or 1.0
+    guess = system.move(x, y, sign * _LEAVE * tangent)
+    c = correct(system, *guess, sign * tangent, None, settings)
+    if c.failure or piece(c.x, c.y) != after:
+        return None
+    new = point_from(c, sign * tangent, point.s + reach + _LEAVE)
+    note = describe(loaded_at(system, point), loaded(system, c.x, c.y))
+    if new.tangent[system.n] * point.tangent[system.n] < 0:
+        note += f"; {system.names[0]} turns back: a non-smooth fold"
+    corner = CurvePoint(x, y, point.tangent, point.sign, point.local, point.jac, point.s + reach, point.error)
+    return new, Located("CO", corner, _SHARP, True, {}, note)
+
+
+def _turn(system: System, tangent: Array, x: Array, y: Array) -> float:
+    """Return the angle between a tangent and the line along which the curve through (x, y) runs, rad."""
+    other = tangent_at(system, system.local(x, y), y)
+    return float(np.arccos(np.clip(abs(other @ tangent), 0.0, 1.0)))
+
+
+def _turned(system: System, point: CurvePoint, x: Array, y: Array) -> bool:
+    return _turn(system, point.tangent, x, y) > _CLEAR
+
+
+def _sudden(system: System, point: CurvePoint, corner: CurvePoint) -> bool:
+    """Whether the tangent turns at a corner rather than steadily on the way."""
+    turns = [_turn(system, point.tangent, *system.move(corner.x, corner.y, d * point.tangent)) for d in (-_AT, _AT)]
+    return turns[0] < 0.2 * turns[1]
+
+
+def _distance(system: System, point: CurvePoint, piece: Piece) -> float | None:
+    """Return how far along the tangent the curve passes to another piece, within `NEAR`."""
+    before = piece(point.x, point.y)
+    low, high = 0.0, 0.0
+    for high in np.geomspace(1e-8, NEAR, 9):
+        if piece(*system.move(point.x, point.y, high * point.tangent)) != before:
+            break
+        low = float(high)
+    else:
+        return None
+    while high - low > _EXACT:
+        middle = 0.5 * (low + high)
+        if piece(*system.move(point.x, point.y, middle * point.tangent)) == before:
+            low = middle
+        else:
+            high = middle
+    return float(high)

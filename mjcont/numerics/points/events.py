@@ -1,0 +1,239 @@
+"""Special points along a curve: tests between two points, location on the defining system, verification.
+
+A detector compares two successive points. A change is followed to the point itself by Newton on its own defining
+system, started from a bracket that is bisected along the curve as often as needed; a point counts when it is found
+within its bracket. A sign change with no point behind it (a pole, or another branch) does not count.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from mjcont.numerics.equations.newton import Corrected, correct
+from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import Local, System
+from mjcont.numerics.step.arclength import CurvePoint, advance
+
+_MOST_BISECTIONS = 40
+_OUTSIDE = 1e-6
+# a test that grows by this while its sign change is bracketed has a pole there
+_POLE = 3.0
+
+
+@dataclass(slots=True)
+class Located:
+    """A special point found between two points of a curve.
+
+    Attributes
+    ----------
+    kind : "LP", "HB", ...
+    point : curve point there, on the same curve.
+    tolerance : size of the last Newton step on the defining system.
+    converged : whether the defining system was solved; otherwise the point is a guess from its bracket.
+    data : coefficients and vectors by name.
+    note : a sentence, where there is something to say.
+    """
+
+    kind: str
+    point: CurvePoint
+    tolerance: float
+    converged: bool = True
+    data: dict[str, Any] = field(default_factory=dict)
+    note: str = ""
+
+
+class Retry(Exception):
+    """The step between two points must be shortened; the argument is the reason, a clause."""
+
+
+class Pole(Exception):
+    """A test function changes sign by growing beyond bounds: there is no zero."""
+
+
+class Detector(Protocol):
+    """Finds points of one kind between two successive points of a curve.
+
+    Attributes
+    ----------
+    structural : whether nothing changes without a change of the curve's direction, orientation or stability.
+    """
+
+    structural: bool
+
+    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether the test function changes between the points."""
+        ...
+
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+        """Return the points there; `found` are those of earlier detectors on the same step."""
+        ...
+
+
+def bisect(
+    system: System,
+    old: CurvePoint,
+    new: CurvePoint,
+    changed: Callable[[CurvePoint, CurvePoint], bool],
+    settle: Callable[[CurvePoint, CurvePoint], Located | None],
+    settings: Settings,
+) -> Located | None:
+    """Return what `settle` finds in a bracket, halving the bracket while it finds nothing; None if it never does."""
+    for _ in range(_MOST_BISECTIONS):
+        try:
+            result = settle(old, new)
+        except np.linalg.LinAlgError:  # a degenerate defining system: not a point of this kind
+            result = None
+        if result is not None:
+            return result
+        length = new.s - old.s
+        if length < 1e-7:
+            return None
+        middle = advance(system, old, 0.5 * length, settings)
+        if isinstance(middle, str):
+            return None
+        if changed(old, middle):
+            new = middle
+        else:
+            old = middle
+    return None
+
+
+def within(system: System, old: CurvePoint, new: CurvePoint, c: Corrected) -> float | None:
+    """Return the arclength of a solution if it lies on the piece of curve from old to new, else None."""
+    x, y = c.x, c.y[: system.k]
+    length = new.s - old.s
+    chord = system.difference(new.x, new.y, old.x, old.y)
+    step = system.difference(x, y, old.x, old.y)
+    size = float(np.linalg.norm(chord))
+    along = float(step @ chord) / size
+    aside = float(np.linalg.norm(step - along * chord / size))
+    slack = _OUTSIDE * length + 1e-9 + 10.0 * min(c.step, 1e-6)
+    if -slack <= along <= size + slack and aside <= 0.3 * length + 1e-9:
+        return old.s + min(max(along / size, 0.0), 1.0) * length
+    return None
+
+
+def between(system: System, old: CurvePoint, new: CurvePoint, fraction: float) -> tuple[Array, Array, Array]:
+    """Return a point at a fraction of the step, on the cubic through both points with their tangents, and a tangent."""
+    h = new.s - old.s
+    chord = system.difference(new.x, new.y, old.x, old.y)
+    t = fraction
+    h01 = t * t * (3.0 - 2.0 * t)
+    h10, h11 = t * (1.0 - t) ** 2, t * t * (t - 1.0)
+    step = h01 * chord + h * (h10 * old.tangent + h11 * new.tangent)
+    tangent = (1.0 - t) * old.tangent + t * new.tangent
+    x, y = system.move(old.x, old.y, step)
+    return x, y, tangent / np.linalg.norm(tangent)
+
+
+def approximate(system: System, old: CurvePoint, new: CurvePoint, fraction: float, settings: Settings) -> Corrected:
+    """Return a corrected point of the curve at about a fraction of the step."""
+    x, y, tangent = between(system, old, new, fraction)
+    return correct(system, x, y, tangent, None, replace(settings, tol=1e-6))
+
+
+def guessed(system: System, old: CurvePoint, new: CurvePoint, fraction: float) -> Corrected:
+    """Return the point at a fraction of a short step as it is interpolated."""
+    x, y, _ = between(system, old, new, fraction)
+    return Corrected(x, y, system.local(x, y), None, 0, 0.0, 0.0, np.inf)
+
+
+def zero_fraction(a: float, b: float) -> float:
+    """Return where a linear function with values a, b at 0, 1 vanishes, kept off the ends."""
+    if a == b:
+        return 0.5
+    return min(max(a / (a - b), 0.02), 0.98)
+
+
+def point_at(system: System, old: CurvePoint, new: CurvePoint, c: Corrected, s: float) -> CurvePoint:
+    """Return a curve point for a located solution; its tangent is interpolated (at a branch point none is unique)."""
+    fraction = (s - old.s) / (new.s - old.s) if new.s > old.s else 0.5
+    tangent = (1.0 - fraction) * old.tangent + fraction * new.tangent
+    tangent /= np.linalg.norm(tangent)
+    return CurvePoint(c.x, c.y[: system.k], tangent, old.sign, c.local, new.jac, s, c.error)
+
+
+@dataclass(slots=True)
+class ZeroDetector:
+    """Zeros of a scalar function of a curve point: user zeros, and tests on loci without a system of their own.
+
+    `solve` follows a point near a zero to the zero itself; `fraction` tells better than a linear function through the
+    test's values where in a step it lies.
+    """
+
+    kind: str
+    system: System
+    test: Callable[[CurvePoint], float]
+    solve: Callable[[Corrected], Corrected]
+    finish: Callable[[Corrected], tuple[dict[str, Any], str] | None]
+    settings: Settings
+    name: str = ""
+    differs: Callable[[CurvePoint, CurvePoint], bool] | None = None
+    structural: bool = False
+    fraction: Callable[[CurvePoint, CurvePoint], float] | None = None
+    _first: float = 0.0
+
+    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether the test changes sign, or differs as told."""
+        if self.differs is not None:
+            return self.differs(old, new)
+        a, b = self._value(old), self._value(new)
+        return a * b < 0 or (b == 0.0 and a != 0.0)
+
+    def _value(self, point: CurvePoint) -> float:
+        key = f"test {self.kind} {self.name}"
+        if key not in point.extra:
+            point.extra[key] = self.test(point)
+        return float(point.extra[key])
+
+    def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
+        a, b = self._value(old), self._value(new)
+        if self.differs is None and min(abs(a), abs(b)) > _POLE * self._first:
+            raise Pole
+        c = s = None
+        if self.fraction is not None and new.s - old.s <= self.settings.ds_max:
+            c = self.solve(guessed(self.system, old, new, self.fraction(old, new)))
+            s = None if c.failure else within(self.system, old, new, c)
+        if c is None or s is None:
+            near = approximate(self.system, old, new, zero_fraction(a, b), self.settings)
+            if near.failure:
+                return None
+            c = self.solve(near)
+            s = None if c.failure else within(self.system, old, new, c)
+            if s is None:
+                return None
+        done = self.finish(c)
+        if done is None:
+            return None
+        data, note = done
+        return Located(self.kind, point_at(self.system, old, new, c, s), c.step, True, data, note)
+
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+        """Return the zero between the points, if there is one; a pole is none."""
+        self._first = max(abs(self._value(old)), abs(self._value(new)))
+        try:
+            result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
+        except Pole:
+            return []
+        return [result] if result is not None else []
+
+
+class ScalarZero:
+    """The condition monitor(x, p) = 0 on an equilibrium curve."""
+
+    count, aux, unfolds = 1, (), False
+
+    def __init__(self, monitor: Callable[[Array, Values], float]) -> None:
+        self.monitor = monitor
+
+    def value(self, local: Local, aux: Array) -> Array:
+        """Return the monitor's value."""
+        return np.array([self.monitor(local.x, local.values)])
+
+    def update(self, local: Local, aux: Array) -> None:
+        """Nothing to renew."""

@@ -1,0 +1,207 @@
+"""Normal-form coefficients of special points.
+
+    fold          a  = w . B(v, v) / 2                         with w . v = 1, |v| = 1
+    cusp          c  = w . (C(v, v, v) - 3 B(v, h)) / 6,       J h = B(v, v) - <w, B(v, v)> v, w . h = 0
+    Hopf          l1 = Re <p, C(q, q, q*) - 2 B(q, J^-1 B(q, q*)) + B(q*, (2 i omega - J)^-1 B(q, q))> / (2 omega)
+    branch point  roots of w . F''(phi, phi) = 0 on the kernel of [J f_p]
+
+Source: Kuznetsov, Elements of Applied Bifurcation Theory, 3rd ed., sections 3.3, 5.4 and 8.2. Coefficients of a
+second-order problem are those in its n positions (|v| = 1 there).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+
+from mjcont.numerics.equations.differences import FOURTH_ORDER, combine, jacobian_from_rows, jacobian_steps, second_form
+from mjcont.numerics.equations.problem import Array, Problem, Values
+from mjcont.numerics.equations.system import Local
+
+
+def fold_coefficient(local: Local, v: Array, w: Array) -> float:
+    """Return a for null vectors in physical units (any length)."""
+    v = v / np.linalg.norm(v)
+    w = w / (w @ v)
+    return float(0.5 * w @ second_form(local.problem, local.x, local.values, v, v))
+
+
+def cusp_coefficient(local: Local, v: Array, w: Array) -> float:
+    """Return c for null vectors in physical units (any length)."""
+    problem, x, values = local.problem, local.x, local.values
+    v = v / np.linalg.norm(v)
+    w = w / (w @ v)
+    b = second_form(problem, x, values, v, v)
+    h = _bordered_solve(local.raw_jac, w, v, b - (w @ b) * v if not problem.second_order else b)
+    third = combine(lambda rows: problem.residuals(x, values, rows), v, 3, 2e-2 / _size(v, problem))
+    return float(w @ (third - 3.0 * second_form(problem, x, values, v, h)) / 6.0)
+
+
+def _size(v: Array, problem: Problem) -> float:
+    return float(np.max(np.abs(v) / problem.state_scale))
+
+
+def _bordered_solve(jac: Any, w: Array, v: Array, rhs: Array) -> Array:
+    """Return h with J h = rhs up to the left null direction and v . h = 0."""
+    matrix = jac.toarray() if sparse.issparse(jac) else jac
+    full = np.block([[matrix, w[:, None]], [v[None], np.zeros((1, 1))]])
+    return np.linalg.lstsq(full, np.append(rhs, 0.0), rcond=None)[0][:-1]
+
+
+class FirstOrder:
+    """The first-order form around an equilibrium, with multilinear forms by sixth-order differences."""
+
+    def __init__(self, problem: Problem, x: Array, values: Values) -> None:
+        self._f = lambda steps: problem.first_order(x, values, steps)
+        scale = problem.state_scale
+        self.scale = np.concatenate([scale, scale]) if problem.second_order else scale
+
+    def jacobian(self) -> Array:
+        """Return the Jacobian of the first-order form."""
+        rows = self._f(jacobian_steps(self.scale, FOURTH_ORDER))
+        return jacobian_from_rows(rows, self.scale, FOURTH_ORDER)
+
+    def _along(self, v: Array, order: int) -> Array:
+        length = float(np.max(np.abs(v) / self.scale))
+        if length == 0.0:
+            return np.zeros(len(v))
+        step = {2: 1e-2, 3: 2e-2}[order]
+        return combine(self._f, v / length, order, step) * length**order
+
+    def second(self, u: Array, v: Array) -> Array:
+        """Return B(u, v) for complex vectors."""
+        if np.iscomplexobj(u) or np.iscomplexobj(v):
+            ur, ui, vr, vi = np.real(u), np.imag(u), np.real(v), np.imag(v)
+            real = self.second(ur, vr) - self.second(ui, vi)
+            return real + 1j * (self.second(ur, vi) + self.second(ui, vr))
+        return 0.25 * (self._along(u + v, 2) - self._along(u - v, 2))
+
+    def trilinear(self, u: Array, v: Array, w: Array) -> Array:
+        """Return C(u, v, w) for complex vectors."""
+        total = np.zeros(len(u), dtype=complex)
+        for i, a in enumerate((u.real, u.imag)):
+            for j, b in enumerate((v.real, v.imag)):
+                for k, c in enumerate((w.real, w.imag)):
+                    if a.any() and b.any() and c.any():
+                        total += 1j ** (i + j + k) * self._polarized(a, b, c)
+        return total
+
+    def _polarized(self, u: Array, v: Array, w: Array) -> Array:
+        plus = self._along(u + v + w, 3) - self._along(u + v - w, 3)
+        return (plus - self._along(u - v + w, 3) + self._along(u - v - w, 3)) / 24.0
+
+    def third(self, u: Array, v: Array) -> Array:
+        """Return C(u, u, v) for real vectors."""
+        return (self._along(u + v, 3) - self._along(u - v, 3) - 2.0 * self._along(v, 3)) / 6.0
+
+
+def first_lyapunov(problem: Problem, x: Array, values: Values, omega: float) -> float:
+    """Return l1 at a Hopf point of frequency omega.
+
+    |q| = 1 in the unknowns of a first-order problem, in the positions of a second-order one.
+    """
+    form = FirstOrder(problem, x, values)
+    jac = form.jacobian()
+    q, p = eigenvectors(jac, omega)
+    if problem.second_order:
+        q = q / np.linalg.norm(q[: problem.n])
+        p = p / np.vdot(q, p).conj()
+    qr, qi = q.real, q.imag
+    c = form.third(qr, qr) + 1j * form.third(qi, qi)
+    c += form.third(qi, qr) + 1j * form.third(qr, qi)
+    b = form.second(q, q.conj()).real
+    identity = np.eye(len(jac))
+    h11 = np.linalg.solve(jac, b)
+    h20 = np.linalg.solve(2j * omega * identity - jac, form.second(q, q))
+    total = c - 2.0 * form.second(q, h11) + form.second(q.conj(), h20)
+    return float(np.real(np.vdot(p, total)) / (2.0 * omega))
+
+
+def eigenvectors(jac: Array, omega: float) -> tuple[Array, Array]:
+    """Return q and p with J q = i omega q, J' p = -i omega p, |q| = 1 and <p, q> = 1."""
+    u, _, vh = np.linalg.svd(jac - 1j * omega * np.eye(len(jac)))
+    q, p = vh[-1].conj(), u[:, -1]
+    return q, p / np.vdot(q, p)
+
+
+def double_zero_coefficients(problem: Problem, x: Array, values: Values) -> dict[str, float]:
+    """Return a, b of the Bogdanov-Takens normal form x'' = a x^2 + b x x' of the first-order form.
+
+    a = p1 . B(q0, q0) / 2, b = p0 . B(q0, q0) + p1 . B(q0, q1) with the generalised eigenvectors J q0 = 0,
+    J q1 = q0, J' p1 = 0, J' p0 = p1, <p0, q0> = <p1, q1> = 1, <p0, q1> = 0 (Kuznetsov, section 8.4).
+    """
+    form = FirstOrder(problem, x, values)
+    jac = form.jacobian()
+    u, _, vt = np.linalg.svd(jac)
+    q0, p1 = vt[-1], u[:, -1]
+    full = np.block([[jac, p1[:, None]], [q0[None], np.zeros((1, 1))]])
+    q1 = np.linalg.solve(full, np.append(q0, 0.0))[:-1]
+    p1 = p1 / (p1 @ q1)
+    p0 = np.linalg.solve(full.T, np.append(p1, 0.0))[:-1]
+    p0 = p0 - (p0 @ q1) * p1
+    b00, b01 = form.second(q0, q0), form.second(q0, q1)
+    return {"a": float(0.5 * p1 @ b00), "b": float(p0 @ b00 + p1 @ b01)}
+
+
+def pitchfork_coefficient(local: Local, w: Array) -> float:
+    """Return the cubic coefficient c of x' = b mu x + c x^3: supercritical for c < 0."""
+    jac = local.raw_jac.toarray() if sparse.issparse(local.raw_jac) else local.raw_jac
+    v = np.linalg.svd(jac)[2][-1]
+    return cusp_coefficient(local, v, w)
+
+
+@dataclass(frozen=True, slots=True)
+class Crossing:
+    """What happens at a simple branch point.
+
+    Attributes
+    ----------
+    tangents : directions of the two branches, (n + 1,) each, in scaled unknowns.
+    kind : "transcritical", "pitchfork" (with "supercritical" or "subcritical"), or "isola centre".
+    """
+
+    tangents: tuple[Array, ...]
+    kind: str
+
+
+def crossing(local: Local, kernel: Array, w: Array, slope: float) -> Crossing:
+    """Return the branches through a branch point.
+
+    Parameters
+    ----------
+    kernel : (n + 1, 2) orthonormal kernel of [J f_p] in scaled unknowns.
+    w : (n,) left null vector in physical units.
+    slope : d value / d coordinate of the parameter.
+    """
+    name = local.wrt[0]
+    problem, value = local.problem, local.values[name]
+
+    def along(direction: Array) -> float:
+        nodes, h = np.arange(-2.0, 3.0), 5e-3
+        weights = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
+        total = 0.0
+        for t, weight in zip(nodes * h, weights, strict=True):
+            x = problem.retract(local.x, t * direction[:-1] * problem.state_scale)
+            total += weight * float(w @ problem.residual(x, {**local.values, name: value + t * slope * direction[-1]}))
+        return total / h**2
+
+    p0, p1 = kernel.T
+    b00, b11 = along(p0), along(p1)
+    b01 = 0.25 * (along(p0 + p1) - along(p0 - p1))
+    discriminant = b01**2 - b00 * b11
+    size = max(abs(b00), abs(b01), abs(b11), 1e-300)
+    if discriminant < -1e-6 * size**2:
+        return Crossing((), "isola centre")
+    root = np.sqrt(max(discriminant, 0.0))
+    if abs(b00) > abs(b11):
+        pairs = [((-b01 + s * root) / b00, 1.0) for s in (1.0, -1.0)]
+    else:
+        pairs = [(1.0, (-b01 + s * root) / b11) for s in (1.0, -1.0)] if b11 else [(1.0, 0.0), (0.0, 1.0)]
+    tangents = tuple(d / np.linalg.norm(d) for d in (a * p0 + b * p1 for a, b in pairs))
+    flat = [abs(t[-1]) < 1e-4 for t in tangents]
+    return Crossing(tangents, "pitchfork" if any(flat) else "transcritical")
+
+

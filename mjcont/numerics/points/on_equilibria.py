@@ -1,0 +1,334 @@
+"""Detectors on a curve of equilibria: folds, branch points, Hopf points, user zeros."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from mjcont.numerics.equations.defining import BranchPoint, Fold, Hopf
+from mjcont.numerics.equations.newton import Corrected, solve
+from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import System
+from mjcont.numerics.points import normalform
+from mjcont.numerics.points.events import (
+    Located,
+    Retry,
+    ScalarZero,
+    ZeroDetector,
+    approximate,
+    bisect,
+    point_at,
+    within,
+    zero_fraction,
+)
+from mjcont.numerics.spectra.spectrum import Spectrum
+from mjcont.numerics.spectra.stability import local_spectrum, negative_stiffness, spectrum_of
+from mjcont.numerics.step.arclength import CurvePoint, advance, turning_fraction
+
+_NOT_TRANSVERSE = 1e-6
+# the unfolding of a true branch point vanishes with the square of the error of its location
+_UNFOLDED = 1e-12
+_DEGENERATE = 1e-9
+_CLOSE = 1e-6
+_SMALL = 1e-4
+_SAME_PAIR = 0.7
+_BRACKET = 1e-9
+
+
+def square_system(system: System, conditions: Sequence[Any], at: Corrected) -> tuple[System, Array]:
+    """Return the accurate system with `conditions` added at a corrected point, and its start y."""
+    base = system.values(at.y)
+    full = System(system.problem, base, system.free, (*system.conditions, *conditions), accurate=True)
+    extra = [a for c in conditions for a in c.aux]
+    return full, np.concatenate([at.y, extra])
+
+
+@dataclass(slots=True)
+class BranchPointDetector:
+    """Simple branch points, by the sign of det [G_z; t]; a change with no point behind it asks for a shorter step."""
+
+    structural = True
+
+    system: System
+    settings: Settings
+
+    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether the orientation changes."""
+        return old.sign * new.sign < 0
+
+    def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
+        near = approximate(self.system, old, new, 0.5, self.settings)
+        if near.failure:
+            return None
+        condition = BranchPoint(near.local, self.system.free[0])
+        full, y = square_system(self.system, [condition], near)
+        c = solve(full, near.x, y)
+        if c.failure or abs(c.y[self.system.k]) > _UNFOLDED:
+            return None
+        s = within(self.system, old, new, c)
+        if s is None:
+            return None
+        kernel, w = condition.null(c.local)
+        slope = self.system.free[0].slope(float(c.y[0]))
+        crossing = normalform.crossing(c.local, kernel, w, slope)
+        point = point_at(self.system, old, new, c, s)
+        data: dict[str, Any] = {"type": crossing.kind, "tangents": np.array(crossing.tangents), "w": w}
+        if crossing.kind == "pitchfork":
+            data["c"] = normalform.pitchfork_coefficient(c.local, w)
+            data["type"] = f"{'super' if data['c'] < 0 else 'sub'}critical pitchfork"
+        return Located("BP", point, c.step, True, data)
+
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+        """Return the branch point between the points.
+
+        Raises
+        ------
+        Retry
+            If the orientation changes without a branch point.
+        """
+        result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
+        if result is None:
+            raise Retry("the orientation changes without a branch point: another branch is near")
+        return [result]
+
+
+def _balanced(system: System, fold: Fold, c: Corrected) -> Corrected:
+    """Return a fold with the parameter at which w . f = 0 for its state as it stands.
+
+    Rounding of the state loads stiff bushes with about 1e-16 k; the left null vector, a motion of the mechanism that
+    leaves the pins closed, does not feel those forces.
+    """
+    if c.failure:
+        return c
+    _, w = fold.physical(c.local)
+    slope = float(w @ c.local.par[:, 0]) * system.free[0].slope(float(c.y[0]))
+    shift = -float(w @ c.local.f) / slope if slope else 0.0
+    if not abs(shift) < 1e-6:
+        return c
+    y = c.y.copy()
+    y[0] += shift
+    return replace(c, y=y)
+
+
+def fold_detector(system: System, settings: Settings) -> ZeroDetector:
+    """Return the detector of folds: the tangent's parameter component changes sign."""
+    state: dict[str, Fold] = {}
+
+    def test(point: CurvePoint) -> float:
+        return float(point.tangent[system.n])
+
+    def solve_fold(near: Corrected) -> Corrected:
+        state["fold"] = Fold(near.local)
+        full, y = square_system(system, [state["fold"]], near)
+        return _balanced(full, state["fold"], solve(full, near.x, y))
+
+    def finish(c: Corrected) -> tuple[dict[str, Any], str] | None:
+        v, w = state["fold"].physical(c.local)
+        f_p = c.local.par[:, 0]
+        if abs(w @ f_p) <= _NOT_TRANSVERSE * (np.abs(w) @ np.abs(f_p)):
+            return None
+        v = v / np.linalg.norm(v)
+        v *= 1.0 if v[np.argmax(np.abs(v))] > 0 else -1.0
+        w = w / (w @ v) if abs(w @ v) > 1e-12 * np.linalg.norm(w) else w / np.linalg.norm(w)
+        a = normalform.fold_coefficient(c.local, v, w)
+        return {"a": a, "v": v, "w": w}, ""
+
+    def fraction(old: CurvePoint, new: CurvePoint) -> float:
+        return turning_fraction(system, old, new, 0)
+
+    return ZeroDetector("LP", system, test, solve_fold, finish, settings, structural=True, fraction=fraction)
+
+
+@dataclass(slots=True)
+class HopfDetector:
+    """Hopf points, by the number of eigenvalue pairs with positive sum; neutral saddles are told apart."""
+
+    structural = True
+
+    system: System
+    settings: Settings
+    neutral: list[Located]
+
+    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether the count changes; symmetric K and C exclude it."""
+        if negative_stiffness(old) is not None and negative_stiffness(new) is not None:
+            return False
+        if spectrum_of(old).conservative and spectrum_of(new).conservative:
+            return False
+        return self._differs(old, new) or self._returns(old, new)
+
+    def _differs(self, old: CurvePoint, new: CurvePoint) -> bool:
+        a, b = spectrum_of(old), spectrum_of(new)
+        return a.pair_count() != b.pair_count() or abs(a.n_unstable - b.n_unstable) > 1
+
+    def _returns(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether the critical pair may cross the axis and come back within the step, judged by its slope before."""
+        length = new.s - old.s
+        if length <= 0.0:
+            return False
+        a, b = critical_pair(spectrum_of(old)), critical_pair(spectrum_of(new))
+        if a is None or b is None or not _SAME_PAIR < _frequency(b) / max(_frequency(a), 1e-300) < 1.0 / _SAME_PAIR:
+            return False  # another pair is now the nearest, or a real one
+        new.extra["slope"] = (b[0] - a[0]) / length
+        slope = old.extra.get("slope")
+        return slope is not None and a[0] * b[0] > 0 and (a[0] + 0.5 * slope * length) * a[0] < 0 and length > _SMALL
+
+    def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
+        near = approximate(self.system, old, new, self._fraction(old, new), self.settings)
+        if near.failure:
+            return None
+        square = critical_square(local_spectrum(near.local))
+        if square is None:
+            return None
+        condition = Hopf(near.local, square)
+        full, y = square_system(self.system, [condition], near)
+        c = solve(full, near.x, y)
+        if c.failure:
+            return None
+        s = within(self.system, old, new, c)
+        if s is None:
+            return None
+        point = point_at(self.system, old, new, c, s)
+        square = condition.square(c.y[self.system.k :])
+        if square <= 0:
+            return Located("NS", point, c.step, True, {"square": square})
+        omega = float(np.sqrt(square))
+        l1 = normalform.first_lyapunov(self.system.problem, c.x, c.local.values, omega)
+        kind = "degenerate" if abs(l1) < _DEGENERATE else "supercritical" if l1 < 0 else "subcritical"
+        return Located("HB", point, c.step, True, {"omega": omega, "l1": l1, "type": kind})
+
+    @staticmethod
+    def _fraction(old: CurvePoint, new: CurvePoint) -> float:
+        a, b = critical_sum(spectrum_of(old)), critical_sum(spectrum_of(new))
+        return zero_fraction(a, b) if a * b < 0 else 0.5
+
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+        """Return the Hopf points between the points; several are separated by bisection."""
+        difference = abs(spectrum_of(old).pair_count() - spectrum_of(new).pair_count())
+        if difference == 0 and spectrum_of(old).n_unstable == spectrum_of(new).n_unstable:
+            raise Retry("a mode may lose its damping and gain it back within the step")
+        if difference == 0 and new.s - old.s <= _CLOSE:
+            return []
+        if difference != 1 and new.s - old.s > _CLOSE:  # several points here, or a Hopf point and a neutral saddle
+            middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
+            if not isinstance(middle, str):
+                halves = [(a, b) for a, b in ((old, middle), (middle, new)) if self._differs(a, b)]
+                return [e for a, b in halves for e in self.locate(a, b, found)]
+        if self._undamped(old) or self._undamped(new):
+            return [self._meeting(old, new)]
+        result = bisect(self.system, old, new, self._differs, self._settle, self.settings)
+        if result is None:
+            return []
+        if result.kind == "NS":
+            self.neutral.append(result)
+            return []
+        return [result]
+
+
+    @staticmethod
+    def _undamped(point: CurvePoint) -> bool:
+        """Whether a complex pair lies on the axis as far as can be told: no Hopf condition singles it out."""
+        s = spectrum_of(point)
+        return bool(np.any((s.eigenvalues.imag > 0) & (np.abs(s.eigenvalues.real) <= s.noise)))
+
+    def _meeting(self, old: CurvePoint, new: CurvePoint) -> Located:
+        """Return where undamped pairs meet and leave the axis, bracketed."""
+        while new.s - old.s > _BRACKET:
+            middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
+            if isinstance(middle, str):
+                break
+            old, new = (old, middle) if self._differs(old, middle) else (middle, new)
+        omega = _frequency(critical_pair(spectrum_of(old)) or (0.0, 0.0))
+        data = {"omega": omega, "type": "degenerate"}
+        return Located("HB", new, new.s - old.s, False, data, "undamped oscillations meet here: bracketed only")
+
+
+@dataclass(slots=True)
+class MultipleDetector:
+    """Several eigenvalues of a conservative problem that pass zero together: bracketed, not solved for."""
+
+    structural = True
+
+    system: System
+    settings: Settings
+
+    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether two or more eigenvalues of K change sign while the curve goes straight on."""
+        if old.tangent[self.system.n] * new.tangent[self.system.n] <= 0:
+            return False
+        a, b = self._unstable(old), self._unstable(new)
+        return a is not None and b is not None and abs(a - b) > 1
+
+    @staticmethod
+    def _unstable(point: CurvePoint) -> int | None:
+        """Return the number of unstable eigenvalues of a conservative problem, None for any other."""
+        count = negative_stiffness(point)
+        if count is not None:
+            return count
+        s = spectrum_of(point)
+        return s.n_unstable if s.conservative else None
+
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+        """Return the bracketed point; none where branch points were found one by one."""
+        if sum(e.kind == "BP" for e in found) > 1:
+            return []
+        before = self._unstable(old) or 0
+        count = (self._unstable(new) or 0) - before
+        while new.s - old.s > _BRACKET:
+            middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
+            if isinstance(middle, str):
+                break
+            old, new = (middle, new) if self._unstable(middle) == before else (old, middle)
+        note = f"{abs(count)} eigenvalues of K vanish together: a point of higher multiplicity, bracketed only"
+        return [Located("BP", new, new.s - old.s, False, {"type": "multiple"}, note)]
+
+
+def critical_pairs(s: Spectrum) -> list[tuple[float, float]]:
+    """Return (sum, product) of every complex pair and of every two real eigenvalues."""
+    ev = s.eigenvalues
+    pairs = [(2.0 * float(e.real), float(abs(e) ** 2)) for e in ev if e.imag > 0]
+    real = [float(e.real) for e in ev if e.imag == 0]
+    pairs += [(a + b, a * b) for i, a in enumerate(real) for b in real[:i]]
+    return pairs
+
+
+def critical_pair(s: Spectrum) -> tuple[float, float] | None:
+    """Return (sum, product) of the pair whose sum is nearest zero, relative to its size."""
+    pairs = critical_pairs(s)
+    return min(pairs, key=lambda p: abs(p[0]) / max(abs(p[1]) ** 0.5, 1e-12)) if pairs else None
+
+
+def _frequency(pair: tuple[float, float]) -> float:
+    """Return the imaginary part of a complex pair given by sum and product, zero for a real one."""
+    return float(np.sqrt(max(pair[1] - 0.25 * pair[0] ** 2, 0.0)))
+
+
+def critical_square(s: Spectrum) -> float | None:
+    """Return the product of the critical pair: omega^2 of a Hopf point."""
+    pair = critical_pair(s)
+    return None if pair is None else pair[1]
+
+
+def critical_sum(s: Spectrum) -> float:
+    """Return the sum of the critical pair."""
+    pair = critical_pair(s)
+    return 0.0 if pair is None else pair[0]
+
+
+def zero_detector(
+    system: System, monitor: Callable[[Array, Values], float], name: str, settings: Settings
+) -> ZeroDetector:
+    """Return the detector of user zeros of a monitor function."""
+
+    def test(point: CurvePoint) -> float:
+        return monitor(point.x, system.values(point.y))
+
+    def solve_zero(near: Corrected) -> Corrected:
+        full, y = square_system(system, [ScalarZero(monitor)], near)
+        return solve(full, near.x, y)
+
+    return ZeroDetector("UZ", system, test, solve_zero, lambda c: ({"monitor": name}, ""), settings, name)

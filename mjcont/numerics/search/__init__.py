@@ -1,0 +1,1 @@
+"""More solutions: many starts, deflation, creep."""

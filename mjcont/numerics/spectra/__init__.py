@@ -1,0 +1,1 @@
+"""Eigenvalues of a pencil, verdicts along a curve."""

@@ -1,0 +1,194 @@
+"""Stability of an equilibrium from its pencil s^2 M + s C + K.
+
+When K and C are symmetric and C is positive semidefinite, the number of unstable eigenvalues is the number of
+negative eigenvalues of K and no Hopf point can exist (Kelvin-Tait-Chetaev); modes that the damping does not reach
+make a point marginal, not unstable. Otherwise the whole spectrum decides, with a margin for the noise of the
+difference derivatives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import ArpackNoConvergence, eigs, splu
+
+from mjcont.numerics.equations.differences import SECOND_ORDER
+from mjcont.numerics.equations.problem import Array, Pencil
+
+STABLE, UNSTABLE, MARGINAL = "stable", "unstable", "marginal"
+_SYMMETRY_NOISE = 1e-8
+_DIFFERENCE_NOISE = 1e-10
+_ROUNDING = 1e-13
+_EIGENSOLVER = 1e-15
+_RIGID = 1e-7
+
+
+@dataclass(frozen=True, slots=True)
+class Spectrum:
+    """Eigenvalues and what they say.
+
+    Attributes
+    ----------
+    eigenvalues : (N,) complex, in 1/s, by falling real part (for large sparse problems those nearest zero).
+    stability : "stable", "unstable" or "marginal".
+    n_unstable : number of eigenvalues with positive real part beyond the noise.
+    noise : (N,) how far from the axis each eigenvalue must be to be told from it.
+    conservative : whether symmetric K and C exclude Hopf points.
+    """
+
+    eigenvalues: Array
+    stability: str
+    n_unstable: int
+    noise: Array
+    conservative: bool
+
+    def pair_count(self) -> int:
+        """Return how many pairs of eigenvalues have a positive sum (complex pairs, and pairs of real ones).
+
+        It changes by one at a Hopf point or a neutral saddle and nowhere else. Complex pairs within the noise of
+        the axis are left out.
+        """
+        ev = self.eigenvalues
+        pairs = int(np.count_nonzero((ev.imag > 0) & (ev.real > self.noise)))
+        real = ev.real[np.abs(ev.imag) == 0]
+        sums = real[:, None] + real[None, :]
+        return pairs + int(np.count_nonzero(np.triu(sums > 0, 1)))
+
+
+def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spectrum:
+    """Return eigenvalues and stability of the pencil.
+
+    Parameters
+    ----------
+    scatter : callable, optional
+        Returns samples of f that differ by rounding only, (m, n). With them the noise of an eigenvalue near the axis
+        is measured instead of bounded: stiff bushes make f noisy, but hardly along the mechanism's own mode.
+    """
+    if sparse.issparse(pencil.stiffness):
+        return _sparse_spectrum(pencil.stiffness)
+    if pencil.mass is None or pencil.damping is None:
+        ev = np.linalg.eigvals(-pencil.stiffness)
+        size = np.abs(pencil.stiffness).max()
+        return _classify(ev, 1e-11 * size + 1e-12 * np.abs(ev), conservative=False)
+    k, c = pencil.stiffness, pencil.damping
+    if symmetric(k) and symmetric(c) and np.linalg.eigvalsh(0.5 * (c + c.T))[0] >= -_ROUNDING * np.abs(c).max():
+        return _conservative(pencil.mass[None], c[None], 0.5 * (k + k.T)[None])[0]
+    ev = quadratic_eigenvalues(pencil.mass, c, k)
+    noise, zero = _noise_bound(pencil.mass, k, ev)
+    close = np.flatnonzero(((np.abs(ev.real) <= noise) | zero) & (ev.imag >= 0))
+    if scatter is not None and len(close):
+        samples = scatter()
+        for i in close:
+            measured = _measured_noise(pencil.mass, c, k, ev[i], samples)
+            settled = measured if zero[i] else min(measured, noise[i])
+            noise[np.abs(ev - ev[i]) == 0] = noise[np.abs(ev - ev[i].conj()) == 0] = settled
+    return _classify(ev, noise, conservative=False)
+
+
+def _noise_bound(mass: Array, stiffness: Array, ev: Array) -> tuple[Array, Array]:
+    """Return a bound on the error of each eigenvalue from the noise of a difference K, and whether it may be zero.
+
+    The bound ignores the structure of K. A motion that nothing opposes or damps is a double eigenvalue 0, which the
+    noise splits into a pair s with s^2 of the order of its error over the mass.
+    """
+    lightest = float(np.abs(np.diag(mass)).min())
+    rate = np.maximum(np.abs(ev), max(np.sqrt(np.median(np.abs(ev))), 1e-300))
+    square = _DIFFERENCE_NOISE * np.abs(stiffness).max() / lightest
+    return np.minimum(square / rate, 1e-2 * np.abs(ev) + 1e-12), np.abs(ev) ** 2 <= square
+
+
+def _measured_noise(mass: Array, damping: Array, stiffness: Array, s: complex, samples: Array) -> float:
+    """Return the error of an eigenvalue from the scatter of p . f, p and q its left and right vectors.
+
+    A column of K is a difference over the step of the stencil, so its error is the scatter over that step; the
+    eigenvalue moves by p . dK q / p . P'(s) q (first-order perturbation); the eigensolver adds its backward error.
+    """
+    u, _, vh = np.linalg.svd(s**2 * mass + s * damping + stiffness)
+    p, q = u[:, -1], vh[-1].conj()
+    slope = abs(np.vdot(p, (2.0 * s * mass + damping) @ q))
+    spread = float(np.std(samples @ p.conj()))
+    size = abs(s) ** 2 * np.abs(mass).max() + abs(s) * np.abs(damping).max() + np.abs(stiffness).max()
+    error = 4.0 * spread / SECOND_ORDER.step * float(np.linalg.norm(q)) + _EIGENSOLVER * size
+    return error / max(slope, 1e-300)
+
+
+def symmetric(matrix: Array) -> bool:
+    """Return whether a difference matrix is symmetric as far as its noise tells."""
+    return bool(np.abs(matrix - matrix.T).max() <= _SYMMETRY_NOISE * max(np.abs(matrix).max(), 1e-300))
+
+
+def quadratic_eigenvalues(mass: Array, damping: Array, stiffness: Array) -> Array:
+    """Return the 2 n eigenvalues of s^2 M + s C + K, scaled by the frequency of the largest stiffness.
+
+    The matrices are (n, n), or stacks (N, n, n) that give (N, 2 n).
+    """
+    n = mass.shape[-1]
+    both = np.linalg.solve(mass, np.concatenate([stiffness, damping], axis=-1))
+    k, c = both[..., :n], both[..., n:]
+    rate = np.sqrt(np.maximum(np.abs(k).max(axis=(-2, -1)), 1e-300))[..., None, None]
+    block = np.zeros((*mass.shape[:-2], 2 * n, 2 * n))
+    block[..., :n, n:] = np.eye(n)
+    block[..., n:, :n], block[..., n:, n:] = -k / rate**2, -c / rate
+    return np.linalg.eigvals(block) * rate[..., 0]
+
+
+def conservative_spectra(pencils: Sequence[Pencil]) -> list[Spectrum]:
+    """Return the spectra of pencils that are known to have a symmetric K and a symmetric, semidefinite C."""
+    k = np.array([p.stiffness for p in pencils])
+    mass, damping = (np.array([getattr(p, name) for p in pencils]) for name in ("mass", "damping"))
+    return _conservative(mass, damping, 0.5 * (k + k.transpose(0, 2, 1)))
+
+
+def _conservative(mass: Array, damping: Array, stiffness: Array) -> list[Spectrum]:
+    """Classify by the inertia of K; the damping only decides whether a mode with positive K is damped."""
+    every = quadratic_eigenvalues(mass, damping, stiffness).astype(complex)
+    order = np.lexsort((every.imag, -every.real))
+    all_values = np.take_along_axis(every, order, axis=-1)
+    lower = np.linalg.inv(np.linalg.cholesky(mass))
+    all_squares = np.linalg.eigvalsh(lower @ stiffness @ lower.transpose(0, 2, 1))
+    found = []
+    for m, k, ev, squares in zip(mass, stiffness, all_values, all_squares, strict=True):
+        noise = _DIFFERENCE_NOISE * np.abs(k).max() / np.diag(m).max()
+        negative = int(np.count_nonzero(squares < -noise))
+        rounding = _ROUNDING * float(np.abs(ev).max(initial=0.0))
+        margin = np.full(len(ev), rounding)
+        touching = np.any(np.abs(squares) <= noise) or np.any(np.abs(ev.real) <= rounding)
+        state = UNSTABLE if negative else MARGINAL if touching else STABLE
+        found.append(Spectrum(ev, state, negative, margin, True))
+    return found
+
+
+def _classify(ev: Array, noise: Array, *, conservative: bool) -> Spectrum:
+    order = np.lexsort((ev.imag, -ev.real))
+    ev, noise = ev[order].astype(complex), noise[order]
+    unstable = int(np.count_nonzero(ev.real > noise))
+    if unstable:
+        state = UNSTABLE
+    else:
+        state = MARGINAL if np.any(np.abs(ev.real) <= noise) else STABLE
+    return Spectrum(ev, state, unstable, noise, conservative)
+
+
+def _sparse_spectrum(stiffness: Any) -> Spectrum:
+    """Count unstable eigenvalues of J = -K, sparse: by inertia where J is symmetric, else near the axis."""
+    jac = sparse.csc_matrix(-stiffness)
+    n = jac.shape[0]
+    size = abs(jac).max()
+    shift = 1e-3 * size / n
+    start = np.cos(np.arange(n, dtype=float))
+    try:
+        near = eigs(jac, k=min(6, n - 2), sigma=shift, v0=start, return_eigenvectors=False)
+    except (ArpackNoConvergence, RuntimeError):
+        near = np.zeros(0, dtype=complex)
+    result = _classify(near, 1e-12 * size + 0.0 * near.real, conservative=False)
+    if abs(jac - jac.T).max() <= _SYMMETRY_NOISE * size:
+        lu = splu(jac, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        if np.array_equal(lu.perm_r, lu.perm_c):
+            count = int(np.count_nonzero(lu.U.diagonal() > 0))
+            state = UNSTABLE if count else result.stability if result.stability == MARGINAL else STABLE
+            return Spectrum(result.eigenvalues, state, count, result.noise, True)
+    return result

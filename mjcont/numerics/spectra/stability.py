@@ -1,0 +1,160 @@
+"""Stability along a curve: by the inertia of K where that decides, by eigenvalues elsewhere, and by the points beside.
+
+Where K is symmetric and the damping is known to be passive, the number of unstable eigenvalues is the number of
+negative eigenvalues of K (Kelvin-Tait-Chetaev), and eigenvalues can wait until somebody reads them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.system import Local
+from mjcont.numerics.spectra.spectrum import (
+    MARGINAL,
+    UNSTABLE,
+    Spectrum,
+    conservative_spectra,
+    spectrum,
+    symmetric,
+)
+from mjcont.numerics.step.arclength import CurvePoint
+
+# entries of the evaluations for derivatives that are held at a time
+_ENTRIES = 2**17
+
+
+def spectrum_of(point: CurvePoint) -> Spectrum:
+    """Return the spectrum at a point, computed once."""
+    if "spectrum" not in point.extra:
+        point.extra["spectrum"] = local_spectrum(point.local)
+    return point.extra["spectrum"]
+
+
+def negative_stiffness(point: CurvePoint) -> int | None:
+    """Return the number of negative eigenvalues of K, computed once: that of unstable eigenvalues.
+
+    None where it does not decide: for a K that is not symmetric, or a problem whose damping is not known to be
+    passive whatever the state (symmetric, semidefinite C).
+    """
+    if "negative" not in point.extra:
+        count = None
+        if getattr(point.local.problem, "passive", False) and symmetric(point.local.raw_jac):
+            count = int(np.count_nonzero(np.linalg.eigvalsh(point.local.raw_jac) > 0.0))
+        point.extra["negative"] = count
+    return point.extra["negative"]
+
+
+def spectra_of(points: Sequence[CurvePoint]) -> list[Spectrum]:
+    """Return the spectra at points, those that the walk could do without in one go."""
+    late = [p for p in points if "spectrum" not in p.extra and negative_stiffness(p) is not None]
+    if late:
+        problem: Any = late[0].local.problem
+        pencils = problem.pencils([p.x for p in late], [p.local.values for p in late], [p.local.raw_jac for p in late])
+        for point, found in zip(late, conservative_spectra(pencils), strict=True):
+            point.extra["spectrum"] = found
+    return [spectrum_of(p) for p in points]
+
+
+def spectra_at(problem: Any, states: Array, values: Sequence[Values], name: str) -> list[Spectrum]:
+    """Return the spectra at equilibria, states (m, nq), between which the parameter `name` alone differs."""
+    found: list[Spectrum] = []
+    many = max(_ENTRIES // (2 * problem.n**2), 1)
+    for first in range(0, len(states), many):
+        part = slice(first, first + many)
+        found += _some_spectra(problem, states[part], values[part], name)
+    return found
+
+
+def _some_spectra(problem: Any, states: Array, values: Sequence[Values], name: str) -> list[Spectrum]:
+    column = np.array([v[name] for v in values])
+    together = problem.linearize_along(states, values[0], name, column)
+    every = [Local(problem, x, v, (), False) for x, v in zip(states, values, strict=True)]
+    jacs = list(together[1]) if together is not None else [local.raw_jac for local in every]
+    if not getattr(problem, "passive", False) or not all(symmetric(j) for j in jacs):
+        pencils = [problem.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]
+        return [spectrum(p, partial(rounding_samples, local)) for p, local in zip(pencils, every, strict=True)]
+    return conservative_spectra(problem.pencils(states, values, jacs))
+
+
+def verdicts(
+    points: Sequence[CurvePoint], needed: Collection[int]
+) -> tuple[list[str], list[int], list[Spectrum | None]]:
+    """Return stability, number of unstable eigenvalues and spectrum of a curve's points in order.
+
+    Spectra are computed where they decide, and at the indices `needed`; elsewhere they are None. A point inside a long
+    step, whose count the step's ends tell, has the stability of the end that has the same count.
+    """
+    found: list[tuple[str, int] | None] = [
+        None if i in needed else _plain(p) for i, p in enumerate(points)
+    ]
+    inside = [i for i, v in enumerate(found) if v is None and _told(points[i]) and i not in needed]
+    waiting = set(inside)
+    spectra: list[Spectrum | None] = [None] * len(points)
+
+    def compute(rows: Sequence[int]) -> None:
+        for i, s in zip(rows, spectra_of([points[i] for i in rows]), strict=True):
+            spectra[i], found[i] = s, (s.stability, s.n_unstable)
+
+    compute([i for i, v in enumerate(found) if v is None and i not in waiting])
+    beside, asked = _beside(len(points), waiting), []
+    for i in inside:
+        count = points[i].extra["count"]
+        ends = [v for v in (found[k] for k in beside[i]) if v is not None]
+        told = [v for v in ends if v[1] == count and v[0] != MARGINAL]
+        if told:
+            found[i] = told[0]
+        else:
+            asked.append(i)
+    compute(asked)
+    done = [v for v in found if v is not None]
+    return [v[0] for v in done], [v[1] for v in done], spectra
+
+
+def tell(old: CurvePoint, between: Sequence[CurvePoint], new: CurvePoint) -> None:
+    """Tell the points between two that have the same number of unstable eigenvalues that they have it, too."""
+    a, b = spectrum_of(old), spectrum_of(new)
+    if a.n_unstable == b.n_unstable:
+        for point in between:
+            point.extra["count"] = a.n_unstable
+
+
+def _told(point: CurvePoint) -> bool:
+    """Whether a point inside a long step waits for its ends to tell its stability."""
+    return "spectrum" not in point.extra and point.extra.get("count") is not None
+
+
+def _plain(point: CurvePoint) -> tuple[str, int] | None:
+    """Return stability and count where the inertia of K decides alone; without it a mode may still be undamped."""
+    if "spectrum" in point.extra or not point.extra.get("negative"):
+        return None
+    return UNSTABLE, point.extra["negative"]
+
+
+def _beside(count: int, waiting: Collection[int]) -> list[tuple[int, ...]]:
+    """Return for each index the nearest indices on both sides that do not wait."""
+    before, after = [-1] * count, [-1] * count
+    last = -1
+    for i in range(count):
+        before[i] = last
+        last = last if i in waiting else i
+    last = -1
+    for i in reversed(range(count)):
+        after[i] = last
+        last = last if i in waiting else i
+    return [tuple(k for k in pair if k >= 0) for pair in zip(before, after, strict=True)]
+
+
+def local_spectrum(local: Local) -> Spectrum:
+    """Return the spectrum at an evaluation, its noise measured from samples of f that differ by rounding."""
+    return spectrum(local.pencil, lambda: rounding_samples(local))
+
+
+def rounding_samples(local: Local) -> Array:
+    """Return f at states a few units in the last place apart, (8, n)."""
+    signs = np.cos(np.arange(8 * local.problem.n, dtype=float)).reshape(8, -1)
+    return local.problem.residuals(local.x, local.values, 2e-15 * signs * local.problem.state_scale)

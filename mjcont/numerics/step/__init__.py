@@ -1,0 +1,1 @@
+"""A point of a curve, one step, interpolation along it."""

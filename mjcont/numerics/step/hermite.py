@@ -1,0 +1,79 @@
+"""Interpolation along a curve: weights of Hermite's polynomial (values and slopes) and of Lagrange's (values).
+
+Source: Quarteroni, Sacco, Saleri, Numerical Mathematics (Springer 2007), sections 8.1 and 8.5.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from mjcont.numerics.equations.problem import Array
+
+
+def lagrange(nodes: Sequence[float], at: float) -> list[float]:
+    """Return the weight of each node's value in the polynomial through all."""
+    weights = []
+    for a in nodes:
+        weight = 1.0
+        for b in nodes:
+            if b != a:
+                weight *= (at - b) / (a - b)
+        weights.append(weight)
+    return weights
+
+
+def hermite(nodes: Sequence[float], at: float) -> tuple[list[float], list[float]]:
+    """Return the weights of the nodes' values and of their slopes in Hermite's polynomial of degree 2 k - 1."""
+    values, slopes = [], []
+    for a, weight in zip(nodes, lagrange(nodes, at), strict=True):
+        bend, square = 2.0 * sum(1.0 / (a - b) for b in nodes if b != a), weight * weight
+        values.append(square - bend * (at - a) * square)
+        slopes.append(square * (at - a))
+    return values, slopes
+
+
+def lagrange_each(nodes: Array, at: Array) -> Array:
+    """Return the weights of `lagrange`, (m, k), for rows of nodes (m, k) and one place each (m,)."""
+    return _each(nodes, at)[1]
+
+
+def hermite_each(nodes: Array, at: Array) -> tuple[Array, Array, Array]:
+    """Return the weights of values and slopes of `hermite` and those of `lagrange`, (m, k) each, as `lagrange_each`."""
+    shares, found = _each(nodes, at)
+    square = found * found
+    slopes = (at[:, None] - nodes) * square
+    return square - (2.0 * shares.sum(axis=1) - 2.0) * slopes, slopes, found
+
+
+def _each(nodes: Array, at: Array) -> tuple[Array, Array]:
+    """Return 1 / (node i - node j), (m, j, i) with ones where they are the same, and the weights of `lagrange_each`."""
+    shares = nodes[:, None] - nodes[:, :, None]
+    own = np.arange(nodes.shape[1])
+    shares[:, own, own] = 1.0
+    shares = 1.0 / shares
+    parts = (at[:, None] - nodes)[:, :, None] * shares
+    parts[:, own, own] = 1.0
+    return shares, parts.prod(axis=1)
+
+
+def mixed(weights: Array, matrices: Array, windows: Array) -> Array:
+    """Return sums of matrices (N, a, b) at indices (m, k) with weights (m, k), (m, a, b)."""
+    out = np.zeros((len(windows), *matrices.shape[1:]))
+    for k in range(windows.shape[1]):
+        out += weights[:, k, None, None] * matrices[windows[:, k]]
+    return out
+
+
+def arc(chord: float, cosine: float) -> float:
+    """Return the length of the circle's arc over a chord whose end tangents make an angle of given cosine."""
+    half = 0.5 * math.acos(min(max(cosine, -1.0), 1.0))
+    return chord * half / math.sin(half) if half > 1e-4 else chord
+
+
+def combine(weights: Sequence[float], parts: Sequence[Array]) -> Array:
+    """Return sum_i weights[i] * parts[i]."""
+    stack = np.array(parts)
+    return (np.array(weights) @ stack.reshape(len(parts), -1)).reshape(stack.shape[1:])

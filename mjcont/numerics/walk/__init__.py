@@ -1,0 +1,1 @@
+"""The one driver loop, long steps, rows between."""

@@ -1,0 +1,66 @@
+"""Steps of a walk along a curve, and how it ends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from mjcont.numerics.points.events import Located
+from mjcont.numerics.step.arclength import CurvePoint
+
+
+class Status(Enum):
+    """Why a curve ends."""
+
+    AT_BOUND = "at bound"
+    CLOSED = "closed"
+    STEP_TOO_SMALL = "step too small"
+    MAX_POINTS = "max points"
+    MAX_ARCLENGTH = "max arclength"
+    MAX_TIME = "max time"
+    RUNS_OFF = "runs off"
+    STOPPED = "stopped"
+    AT_SPECIAL_POINT = "at special point"
+    INTERRUPTED = "interrupted"
+    NO_START = "no start"
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """The end of a curve: a status and a sentence."""
+
+    status: Status
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A step of the walk.
+
+    Attributes
+    ----------
+    items : points and special points in order, the step's end last.
+    next : length of the step after it.
+    ending : the end of the curve, if a bound is met at the step's end.
+    """
+
+    items: list[CurvePoint | Located]
+    next: float
+    ending: End | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Leap:
+    """A long step whose inside waits to be filled together with others.
+
+    Attributes
+    ----------
+    old, new : its ends.
+    h : length with which it was tried.
+    ending : the end of the curve, if a bound is met at `new`.
+    """
+
+    old: CurvePoint
+    new: CurvePoint
+    h: float
+    ending: End | None

@@ -1,0 +1,1 @@
+"""The paper's figures, findings and report."""

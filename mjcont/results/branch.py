@@ -1,0 +1,357 @@
+"""Results: points, special points, and branches with named columns. Immutable once made."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mjcont.errors import MjcontError, unknown_name
+from mjcont.numerics.equations.problem import Array
+
+if TYPE_CHECKING:
+    from mjcont.motion.certificates import Certificate
+
+KIND_NAMES = {
+    "LP": "fold",
+    "HB": "Hopf point",
+    "BP": "branch point",
+    "CP": "cusp",
+    "BT": "Bogdanov-Takens point",
+    "GH": "generalised Hopf point",
+    "ZH": "zero-Hopf point",
+    "HH": "double Hopf point",
+    "UZ": "user zero",
+    "CO": "corner",
+    "EP": "end",
+}
+
+
+# observables that a summary line shows; all are in the columns
+_SHOWN = 5
+
+
+def show(value: float, unit: str, digits: int = 7) -> str:
+    """Return a value with its unit; radians are shown in degrees."""
+    if unit == "rad":
+        return f"{math.degrees(value):.{digits}g} deg"
+    return f"{value:.{digits}g} {unit}".rstrip().removesuffix(" 1")
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """One equilibrium.
+
+    Attributes
+    ----------
+    parameters, observables : mappings of name to value, SI and radians.
+    state : (nq,) array; a VectorField's u.
+    eigenvalues : complex array, in 1/s.
+    stability : "stable", "unstable" or "marginal".
+    n_unstable : number of eigenvalues with positive real part.
+    problem : the Mechanism or VectorField.
+    units : mapping of name to unit, for parameters and observables.
+    """
+
+    parameters: Mapping[str, float]
+    observables: Mapping[str, float]
+    state: Array
+    eigenvalues: Array
+    stability: str
+    n_unstable: int
+    problem: Any = field(repr=False)
+    units: Mapping[str, str] = field(repr=False, default_factory=dict)
+
+    def __getitem__(self, name: str) -> float:
+        """Return a parameter's or observable's value."""
+        if name in self.parameters:
+            return self.parameters[name]
+        if name in self.observables:
+            return self.observables[name]
+        raise unknown_name("parameter or observable", name, [*self.parameters, *self.observables])
+
+    def __str__(self) -> str:
+        """Return stability and observables."""
+        shown = ", ".join(f"{k} = {show(v, self.units.get(k, ''))}" for k, v in self.observables.items())
+        return f"{self.stability} ({self.n_unstable} unstable): {shown}"
+
+
+@dataclass(frozen=True, slots=True)
+class SpecialPoint(Point):
+    """A located special point.
+
+    Attributes
+    ----------
+    kind, label : such as "LP" and "LP1".
+    index : row of the branch that holds it.
+    tolerance : size of the last Newton step on its defining system, in scaled unknowns.
+    converged : False for a guess from its bracket.
+    coefficients : normal-form coefficients by name.
+    vectors : null vectors by name, in physical units.
+    note : a sentence, where there is something to say.
+    free : the free parameters of the curve it was found on, with their bounds.
+    curve : the kind of that curve.
+    """
+
+    kind: str = ""
+    label: str = ""
+    index: int = 0
+    tolerance: float = math.nan
+    converged: bool = True
+    coefficients: Mapping[str, Any] = field(default_factory=dict)
+    vectors: Mapping[str, Array] = field(default_factory=dict, repr=False)
+    note: str = ""
+    free: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    curve: str = "equilibria"
+
+    def __str__(self) -> str:
+        """Return kind, parameters, observables, coefficients and the tolerance reached."""
+        head = f"{self.label} ({KIND_NAMES.get(self.kind, self.kind)})"
+        names = [*self.free, *list(self.observables)[:_SHOWN]]
+        shown = ", ".join(f"{n} = {show(self[n], self.units.get(n, ''))}" for n in names)
+        extra = "".join(f", {k} = {_short(v)}" for k, v in self.coefficients.items())
+        state = f"located to {self.tolerance:.1e}" if self.converged else "not converged: a guess"
+        return f"{head}: {shown}{extra}; {state}" + (f" ({self.note})" if self.note else "")
+
+
+def _short(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A named column of a branch: its unit, whether parameter or observable, and its values."""
+
+    name: str
+    unit: str
+    role: str
+    values: Array
+
+
+class _Deferred:
+    """A field that may be given as a function: it is called once, where the field is read first."""
+
+    def __init__(self, name: str) -> None:
+        self._key = f"_{name}"
+
+    def __get__(self, instance: Any, owner: type) -> Any:
+        value = instance.__dict__[self._key]
+        if callable(value):
+            value = instance.__dict__[self._key] = value()
+        return value
+
+    def __set__(self, instance: Any, value: Any) -> None:
+        instance.__dict__[self._key] = value
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A curve of equilibria, or a locus of special points.
+
+    Attributes
+    ----------
+    kind : "equilibria", "LP locus", "HB locus", ...
+    name : the model's name.
+    columns : mapping of name to Column; every free parameter and observable.
+    states : (N, nq) array.
+    eigenvalues : (N, m) complex array, NaN where a row has fewer; computed where first read, as far as stability did
+        not need them.
+    stability : (N,) array of "stable", "unstable", "marginal".
+    n_unstable : (N,) int array.
+    special_points : in order along the branch.
+    free : mapping of free parameter to its bounds.
+    fixed, fixed_units : mappings of the other parameters to their values and units.
+    ends : status and sentence of both ends, in the order of storage.
+    start : how the first equilibrium was reached, a sentence.
+    settings, provenance : mappings.
+    problem : the Mechanism or VectorField, or None for a loaded file without one.
+    start_index : row of the start.
+    neutral_saddles : where two real eigenvalues of opposite sign were seen, by free parameter: no Hopf points.
+    notes : sentences on the branch as a whole.
+    certificate : what `verify_stability` found, or None.
+    """
+
+    kind: str
+    name: str
+    columns: Mapping[str, Column]
+    states: Array
+    state_labels: Sequence[tuple[str, str]]
+    eigenvalues: Array
+    stability: Array
+    n_unstable: Array
+    residuals: Array
+    special_points: Sequence[SpecialPoint]
+    free: Mapping[str, tuple[float, float]]
+    fixed: Mapping[str, float]
+    ends: Sequence[tuple[str, str]]
+    start: str
+    settings: Mapping[str, Any]
+    provenance: Mapping[str, str]
+    problem: Any = field(repr=False, default=None)
+    start_index: int = 0
+    neutral_saddles: Sequence[Mapping[str, float]] = ()
+    notes: Sequence[str] = ()
+    fixed_units: Mapping[str, str] = field(default_factory=dict)
+    certificate: Certificate | None = field(repr=False, default=None)
+
+    def __len__(self) -> int:
+        """Return the number of rows: the points reached in turn, special points, and rows between (see `Settings`)."""
+        return len(self.states)
+
+    def __getitem__(self, name: str) -> Array:
+        """Return a column, SI and radians, (N,)."""
+        if name in self.columns:
+            return self.columns[name].values
+        if name in self.fixed:
+            return np.full(len(self), self.fixed[name])
+        raise unknown_name("column", name, [*self.columns, *self.fixed])
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a column or of a fixed parameter."""
+        if name in self.columns:
+            return self.columns[name].unit
+        if name in self.fixed:
+            return self.fixed_units.get(name, "")
+        raise unknown_name("column", name, [*self.columns, *self.fixed])
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what is pickled and copied: everything, computed."""
+        return {**self.__dict__, "_eigenvalues": self.eigenvalues}
+
+    @property
+    def status(self) -> str:
+        """One word for how the branch ended: the least regular of its two ends."""
+        words = [word for word, _ in self.ends]
+        regular = ("at bound", "closed")
+        return next((w for w in words if w not in regular), words[0] if words else "not started")
+
+    @property
+    def message(self) -> str:
+        """The sentences of both ends."""
+        return "; ".join(dict.fromkeys(m for _, m in self.ends))
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the user stopped the run."""
+        return any(word == "interrupted" for word, _ in self.ends)
+
+    def of_kind(self, kind: str) -> list[SpecialPoint]:
+        """Return the special points of one kind, in order along the branch."""
+        return [p for p in self.special_points if p.kind == kind]
+
+    def point(self, label: str) -> SpecialPoint:
+        """Return the special point with a label such as "LP1"."""
+        for p in self.special_points:
+            if p.label == label:
+                return p
+        raise unknown_name("special point", label, [p.label for p in self.special_points])
+
+    def row(self, index: int) -> Point:
+        """Return a point of the branch by its row."""
+        return self.row_with(index, self.eigenvalues[index])
+
+    def row_with(self, index: int, eigenvalues: Array) -> Point:
+        """Return a point of the branch by its row, its eigenvalues known."""
+        return Point(
+            self.parameters_at(index),
+            {c.name: float(c.values[index]) for c in self.columns.values() if c.role == "observable"},
+            self.states[index].copy(),
+            eigenvalues[~np.isnan(eigenvalues)],
+            str(self.stability[index]),
+            int(self.n_unstable[index]),
+            self.problem,
+            self.units,
+        )
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of all columns."""
+        return {c.name: c.unit for c in self.columns.values()}
+
+    def parameters_at(self, index: int) -> dict[str, float]:
+        """Return the values of all parameters in a row."""
+        free = {n: float(self.columns[n].values[index]) for n in self.free}
+        return {**self.fixed, **free}
+
+    def at(self, **target: float) -> list[Point]:
+        """Return the points of the branch at which one column has a value, corrected to it (there may be several).
+
+        Raises
+        ------
+        MjcontError
+            If not exactly one column is given, or the branch was loaded without its problem.
+        """
+        from mjcont.curves.continuation import points_at
+
+        if len(target) != 1:
+            raise MjcontError("Branch.at takes exactly one column and value, such as at(F=20.0)")
+        ((name, value),) = target.items()
+        return points_at(self, name, value)
+
+    def save(self, path: str | Path) -> Path:
+        """Write the branch to an HDF5 file (replacing it whole or not at all) and return the path."""
+        from mjcont.results.files import save
+
+        return save(self, path)
+
+    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
+        """Write the columns as CSV with units in the header, angles in degrees unless told otherwise."""
+        from mjcont.results.files import write_csv
+
+        return write_csv(self, path, degrees=degrees)
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas DataFrame of the columns (SI and radians), stability and labels."""
+        try:
+            import pandas as pd
+        except ImportError as error:
+            raise MjcontError("to_dataframe needs pandas: pip install 'mjcont[notebook]'") from error
+        data = {c.name: c.values for c in self.columns.values()}
+        return pd.DataFrame({**data, "stability": self.stability, "n_unstable": self.n_unstable, "label": self.labels})
+
+    @property
+    def labels(self) -> list[str]:
+        """Label of each row, empty where it is no special point."""
+        labels = [""] * len(self)
+        for p in self.special_points:
+            labels[p.index] = p.label
+        return labels
+
+    def __str__(self) -> str:
+        """Return a readable summary: rows, stability, special points with values, status."""
+        free = ", ".join(self.free)
+        lines = [f"{self.name}: {self.kind} in {free}, {len(self)} rows"]
+        for name, (low, high) in self.free.items():
+            values, unit = self[name], self.unit(name)
+            span = f"{show(values.min(), unit)} .. {show(values.max(), unit)}"
+            lines.append(f"  {name}: {span} (bounds {show(low, unit)} .. {show(high, unit)})")
+        lines.append(f"  start: {self.start}")
+        if self.kind == "equilibria":
+            lines.append("  stability: " + self._stability_runs())
+        lines += [f"  {p}" for p in self.special_points] or ["  no special points"]
+        lines += [f"  note: {n}" for n in self.notes]
+        lines += [f"  {self.certificate.headline}"] if self.certificate is not None else []
+        lines += [f"  {which} end: {word}: {sentence}" for which, (word, sentence) in zip(
+            ("first", "last"), self.ends, strict=False)]
+        return "\n".join(lines)
+
+    def _stability_runs(self) -> str:
+        runs: list[list[Any]] = []
+        for s in self.stability:
+            if runs and runs[-1][0] == s:
+                runs[-1][1] += 1
+            else:
+                runs.append([s, 1])
+        return ", ".join(f"{word} ({count})" for word, count in runs)
+
+    def settings_json(self) -> str:
+        """Return the settings as JSON."""
+        return json.dumps(dict(self.settings), sort_keys=True)
+
+
+Branch.eigenvalues = _Deferred("eigenvalues")  # type: ignore[assignment]

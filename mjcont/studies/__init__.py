@@ -1,0 +1,1 @@
+"""TOML studies: schema, tables, checks, runs."""

@@ -1,0 +1,246 @@
+"""What a study file asks for: its schema, checked whole before anything is computed.
+
+docs/studies.md describes every key. Numbers are SI and radians; a string such as "20 deg" says its unit.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from mjcont.errors import StudyError, unknown_name
+from mjcont.mechanism.mechanism import Mechanism
+from mjcont.models.loading import shipped_models
+from mjcont.results.quantities import FRICTION
+from mjcont.studies.keys import Context, Known, Reference, about, check_keys, pair, read, value_table
+from mjcont.studies.schema import Table
+from mjcont.studies.sweeps import SweepPlan, read_sweep
+from mjcont.studies.tables import KINDS, PLOT, PLOT_SUFFIXES, known
+
+__all__ = ["PLOT_SUFFIXES", "BranchPlan", "PlotPlan", "Study", "Task", "check_study", "load_study"]
+
+STUDY_VERSION = 1
+TOP = (
+    "version", "model", "friction", "parameters", "declare", *(kind.table for kind in KINDS.values()), "plot", "sweep",
+)
+_NAME = re.compile(r"[A-Za-z_]\w*")
+
+
+@dataclass(frozen=True, slots=True)
+class BranchPlan:
+    """One curve of equilibria to be computed; `start` holds every parameter value that the study gives."""
+
+    name: str
+    parameter: str
+    bounds: tuple[float, float]
+    start: Mapping[str, float]
+    keyframe: str | None = None
+    state: tuple[float, ...] | None = None
+    direction: int | None = None
+    zeros: Mapping[str, float] = field(default_factory=dict)
+    csv: bool = False
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    origin: Reference | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """Any other result to be computed: its kind, and the values of its keys."""
+
+    kind: str
+    name: str
+    given: Mapping[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class PlotPlan:
+    """One diagram to be drawn from branches of the study."""
+
+    file: str
+    branches: tuple[str, ...]
+    x: str
+    y: str
+    title: str = ""
+    labels: bool = True
+    degrees: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Study:
+    """A checked study file with its model."""
+
+    file: str
+    mechanism: Mechanism = field(repr=False)
+    branches: tuple[BranchPlan, ...]
+    plots: tuple[PlotPlan, ...] = ()
+    tasks: tuple[Task, ...] = ()
+    sweep: SweepPlan | None = None
+    friction: str = FRICTION[0]
+
+    @property
+    def plans(self) -> tuple[BranchPlan | Task, ...]:
+        """Everything to be computed, in that order: searches, branches, the other tables as `KINDS` has them."""
+        first = tuple(t for t in self.tasks if t.kind == "search")
+        return (*first, *self.branches, *(t for t in self.tasks if t.kind != "search"))
+
+
+def load_study(path: str | Path, *, friction: str | None = None) -> Study:
+    """Read a study file and check all of it, also against its model; `friction` comes before the file's own.
+
+    Raises
+    ------
+    StudyError
+        If anything is wrong: the first problem, one line that names the file and the key, with the valid choices.
+    """
+    study, problems = _read(path, friction)
+    if study is None:
+        raise problems[0]
+    return study
+
+
+def check_study(path: str | Path, *, friction: str | None = None) -> tuple[Study | None, list[str]]:
+    """Return the study, or None, and every problem that can be found without computing: a line each.
+
+    A line reads `FILE: table[i].key: what is wrong, with the valid choices`.
+    """
+    study, problems = _read(path, friction)
+    lines = (str(p).replace(f"study '{path}': ", f"{path}: ", 1) for p in problems)
+    return study, list(dict.fromkeys(" ".join(line.split()) for line in lines))
+
+
+def _read(path: str | Path, friction: str | None) -> tuple[Study | None, list[StudyError]]:
+    context = Context(None)
+    data: dict[str, Any] = {}
+    with context.noting():
+        data = _parse(Path(path))
+    if context.problems:
+        return None, context.problems
+    root = Table(str(path), data)
+    check_keys(root, TOP, ("model",), context)
+    with context.noting():
+        version = root.integer("version", STUDY_VERSION)
+        if version != STUDY_VERSION:
+            raise root.error("version", f"this mjcont reads version {STUDY_VERSION}, the file has {version}")
+    with context.noting():
+        context.mechanism = _load_model(root, Path(path).parent, friction) if "model" in data else None
+    if context.mechanism is not None:
+        _prepare(root, context)
+    study = _assemble(root, context, friction)
+    return (None if context.problems else study), context.problems
+
+
+def _prepare(root: Table, context: Context) -> None:
+    """Declare the study's parameters and read the values for all results."""
+    with context.noting():
+        declare = root.table("declare")
+        for name in declare.data:
+            with context.noting():
+                _declare(declare, name, context.mechanism)
+    with context.noting():
+        context.common = value_table(root.table("parameters"), context)
+
+
+def _assemble(root: Table, context: Context, friction: str | None) -> Study:
+    branches: list[BranchPlan] = []
+    tasks: list[Task] = []
+    places: dict[str, str] = {}
+    count = 0
+    for kind, spec in KINDS.items():
+        for table in _tables(root, spec.table, context):
+            count += 1
+            given = read(table, spec, context)
+            name = table.data.get("name")
+            if isinstance(name, str):
+                draws = table.data.get("columns") or ("png" in spec.keys and table.data.get("png", True))
+                _claim(places, "name", [name, *([f"{name}.png"] if draws else [])], table, context)
+                if name not in context.known:
+                    context.known[name] = known(kind, given or {}, table.data, context)
+            if given is not None:
+                tasks += [] if kind == "branch" else [Task(kind, given.pop("name"), given)]
+                branches += [BranchPlan(origin=given.pop("from"), **given)] if kind == "branch" else []
+    if not count and not context.problems:
+        wanted = ", ".join(f"[[{spec.table}]]" for kind, spec in KINDS.items() if kind != "branch")
+        missing = "" if "branch" in root.data else "this key is missing: "
+        context.problems.append(
+            root.error("branch", f"{missing}a study needs at least one [[branch]], or another result: {wanted}")
+        )
+    plots = []
+    for table in _tables(root, "plot", context):
+        given = read(table, PLOT, context)
+        if isinstance(table.data.get("file"), str):
+            _claim(places, "file", [table.data["file"]], table, context)
+        plots += [PlotPlan(**given)] if given is not None else []
+    sweep, asked = None, friction or FRICTION[0]
+    with context.noting():
+        asked = friction or root.text("friction", FRICTION[0])
+        if context.mechanism is not None:
+            sweep = read_sweep(root, context.mechanism, tuple(branches))
+    return Study(root.file, context.mechanism, tuple(branches), tuple(plots), tuple(tasks), sweep, asked)
+
+
+def _tables(root: Table, key: str, context: Context) -> Sequence[Table]:
+    found: Sequence[Table] = ()
+    with context.noting():
+        found = root.tables(key)
+    return found
+
+
+def _claim(places: dict[str, str], key: str, files: Sequence[str], table: Table, context: Context) -> None:
+    """Note names that would share a file, also where case makes no difference."""
+    name = table.data[key]
+    stem, _, number = name.rpartition("_")
+    with context.noting():
+        for file in files:
+            earlier = places.setdefault(file.casefold(), table.where)
+            if earlier != table.where:
+                raise table.error(key, f"'{name}' is the {key} of {earlier} already")
+        if number.isdecimal() and context.known.get(stem, Known("")).kind == "diagram":
+            raise table.error(key, f"'{name}' is what a branch of the diagram '{stem}' is called")
+
+
+def _parse(path: Path) -> dict[str, Any]:
+    if not path.is_file():
+        what = "is a folder, not a file" if path.is_dir() else "no such file"
+        raise StudyError(f"study '{path}': {what}")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (UnicodeDecodeError, OSError) as error:
+        raise StudyError(f"study '{path}' cannot be read as text: {error}") from error
+    try:
+        return tomllib.loads(text)
+    except ValueError as error:
+        raise StudyError(f"study '{path}': not valid TOML: {error}") from error
+
+
+def _load_model(root: Table, folder: Path, friction: str | None) -> Mechanism:
+    name, asked = root.text("model"), root.text("friction", FRICTION[0])
+    if asked not in FRICTION:
+        raise root.error("friction", unknown_name("choice", asked, FRICTION))
+    friction = friction or asked
+    beside = folder / name
+    with about(root, "model"):
+        if not beside.is_file() and name in shipped_models():
+            return Mechanism.from_xml(name, friction=friction)
+        return Mechanism.from_xml(beside, friction=friction)
+
+
+def _declare(declare: Table, name: str, mechanism: Mechanism) -> None:
+    table = declare.table(name)
+    table.only("targets", "unit", "bounds")
+    table.require("targets")
+    known = mechanism.parameters.get(name)
+    if not _NAME.fullmatch(name):
+        raise declare.error(name, "a parameter's name consists of letters, digits and '_'")
+    if (known is not None and known.kind != "control") or name in mechanism.observables:
+        raise declare.error(name, "the model has a parameter or an observable of this name: choose another")
+    unit = table.text("unit")
+    bounds = pair(table, "bounds", unit) if "bounds" in table.data else None
+    targets = table.texts("targets")
+    if not targets:
+        raise table.error("targets", "expected at least one target, such as ['joint:hip.stiffness']")
+    with about(table, "targets"):
+        mechanism.declare(name, *targets, unit=unit, bounds=bounds)

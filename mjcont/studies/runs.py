@@ -1,0 +1,263 @@
+"""What computes the tables of a study, one function a kind: a plan and the results so far give a result and its files.
+
+An interrupt that a computation turns into a shorter result is stored like any other; `interrupted` tells.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mjcont.commands.progress import Reporter
+from mjcont.curves.collect import units
+from mjcont.errors import MjcontError, unknown_name
+from mjcont.results.branch import Branch, show
+from mjcont.studies.keys import Reference
+from mjcont.studies.plans import Task
+
+
+@dataclass(frozen=True, slots=True)
+class Running:
+    """What a computation works with: the model, the folder for files, the results so far, who hears of it."""
+
+    mechanism: Any
+    folder: Path
+    done: Mapping[str, Any]
+    reporter: Reporter
+
+
+Outcome = tuple[Any, list[Path]]
+
+
+def point_of(done: Mapping[str, Any], reference: Reference) -> Any:
+    """Return a point of a result.
+
+    Raises
+    ------
+    MjcontError
+        If the result has no such point; the message lists those it has.
+    """
+    if reference.result not in done:
+        stem = reference.result.rpartition("_")[0]
+        raise unknown_name("branch", reference.result, [n for n in done if n.rpartition("_")[0] == stem])
+    result, label = done[reference.result], reference.label
+    if hasattr(result, "jumps"):
+        return result.final
+    if label in ("start", "first", "last"):
+        return result.row({"start": result.start_index, "first": 0, "last": len(result) - 1}[label])
+    try:
+        return result.point(label)
+    except MjcontError as error:
+        raise type(error)(f"'{reference}': {error}") from error
+
+
+def interrupted(result: Any) -> bool:
+    """Whether the user stopped a computation that gave a shorter result."""
+    if hasattr(result, "branches"):
+        return any(b.interrupted for b in result.branches)
+    return bool(getattr(result, "interrupted", False) or getattr(result, "status", "") == "interrupted")
+
+
+def start_of(given: Mapping[str, Any], done: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the start that a table asks for, as functions take it."""
+    if given.get("from") is not None:
+        return {"start": point_of(done, given["from"])}
+    return {key: given[key] for key in ("start", "keyframe", "state")}
+
+
+def task_line(mechanism: Any, plan: Task) -> str:
+    """Return what a task is, in a line."""
+    g, unit_of = plan.given, units(mechanism)
+
+    def span(name: str, ends: tuple[float, float]) -> str:
+        return f"{name} from {show(ends[0], unit_of[name], 6)} to {show(ends[1], unit_of[name], 6)}"
+
+    of = str(g["point"]) if "point" in g else str(g["branch"]) if "branch" in g else ""
+    details: dict[str, Callable[[], str]] = {
+        "search": lambda: ", ".join(span(n, b) if n in unit_of else n for n, b in g["region"].items()) or "everywhere",
+        "diagram": lambda: span(g["parameter"], g["bounds"]),
+        "locus": lambda: f"{of}, {span(g['parameter'], g['bounds'])}",
+        "path": lambda: g["parameter"] + " " + " -> ".join(show(v, unit_of[g["parameter"]], 6) for v in g["values"])
+        if g["parameter"] else f"{len(g['loads'])} loads",
+        "history": lambda: f"{g['duration']:g} s, " + (", ".join(g["inputs"]) or "no inputs"),
+        "worst case": lambda: f"{of}, " + ", ".join(span(n, b) for n, b in g["ranges"].items()),
+        "map": lambda: f"{of}, " + ", ".join(f"{span(n, (a[0], a[-1]))} ({len(a)})" for n, a in g["grid"].items()),
+    }
+    return f"{plan.kind}: {details[plan.kind]() if plan.kind in details else of}"
+
+
+def compute(plan: Task, at: Running) -> Outcome:
+    """Compute a task and store what it gives."""
+    return _RUNS[plan.kind](plan, at)
+
+
+def _search(plan: Task, at: Running) -> Outcome:
+    from mjcont.curves.search import find_equilibria
+    from mjcont.studies.outputs import equilibria_csv
+
+    g = plan.given
+    found = find_equilibria(
+        at.mechanism, g["start"], region=g["region"] or None, starts=g["starts"], seed=g["seed"],
+        max_solutions=g["max_solutions"], keyframes=g["keyframes"], progress=at.reporter.point,
+        **_given(g, "max_seconds"),
+    )
+    return found, [equilibria_csv(found, at.mechanism, at.folder / f"{plan.name}.csv")] if g["csv"] else []
+
+
+def _diagram(plan: Task, at: Running) -> Outcome:
+    from mjcont.curves.diagram import bifurcation_diagram
+
+    g = plan.given
+    starts: Any = g["start"] or None
+    if g["from"]:
+        starts = [p for r in g["from"] for p in ([point_of(at.done, r)] if r.label else at.done[r.result])]
+        low, high = g["bounds"]
+        starts = [p for p in starts if low <= p.parameters[g["parameter"]] <= high]
+        if not starts:
+            raise MjcontError(f"none of the points in 'from' lies in the bounds of {g['parameter']}")
+    if g["keyframes"] and starts is None:
+        starts = {}
+    found = bifurcation_diagram(
+        at.mechanism, g["parameter"], g["bounds"], starts, keyframes=g["keyframes"], max_branches=g["max_branches"],
+        progress=at.reporter.point, **g["settings"],
+    )
+    files = []
+    for i, branch in enumerate(found, 1):
+        files += store_curve(branch, f"{plan.name}_{i}", g["csv"], at.folder)
+    return found, files
+
+
+def _locus(plan: Task, at: Running) -> Outcome:
+    from mjcont.curves.loci import continue_special
+
+    g = plan.given
+    found = continue_special(
+        point_of(at.done, g["point"]), g["parameter"], g["bounds"], direction=g["direction"], zeros=g["zeros"],
+        progress=at.reporter.point, **g["settings"],
+    )
+    return found, store_curve(found, plan.name, g["csv"], at.folder)
+
+
+def _path(plan: Task, at: Running) -> Outcome:
+    from mjcont.motion.loadpaths import load_path
+
+    g = plan.given
+    way = (g["parameter"], g["values"]) if g["parameter"] else (g["loads"], None)
+    options = {**start_of(g, at.done), **{key: g[key] for key in ("landing", "max_time", "max_jumps")}, **g["settings"]}
+    found = load_path(at.mechanism, way[0], way[1], **options)
+    return found, store_curve(found, plan.name, g["csv"], at.folder)
+
+
+def _history(plan: Task, at: Running) -> Outcome:
+    from mjcont.motion.histories import simulate
+    from mjcont.studies.outputs import draw_history
+
+    g = plan.given
+    found = simulate(
+        at.mechanism, g["inputs"], g["duration"], **start_of(g, at.done),
+        **{key: g[key] for key in ("timestep", "integrator", "tol", "until_rest", "samples")},
+    )
+    files = store_curve(found, plan.name, g["csv"], at.folder)
+    if g["columns"]:
+        files.append(draw_history(found, g["columns"], at.folder / f"{plan.name}.png"))
+    return found, files
+
+
+def _sensitivity(plan: Task, at: Running) -> Outcome:
+    from mjcont.influence.sensitivities import sensitivities
+
+    g = plan.given
+    found = sensitivities(
+        point_of(at.done, g["point"]), g["parameters"], quantities=g["quantities"], tolerances=g["tolerances"]
+    )
+    files = [found.to_csv(at.folder / f"{plan.name}.csv")] if g["csv"] else []
+    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+
+
+def _worst(plan: Task, at: Running) -> Outcome:
+    from mjcont.influence.extremes import worst_case
+    from mjcont.studies.outputs import worst_case_csv
+
+    g = plan.given
+    found = worst_case(
+        point_of(at.done, g["point"]), g["ranges"], **{key: g[key] for key in ("quantity", "maximise", "grid", "tol")}
+    )
+    return found, [worst_case_csv(found, at.folder / f"{plan.name}.csv")] if g["csv"] else []
+
+
+def _map(plan: Task, at: Running) -> Outcome:
+    from mjcont.influence.maps import special_map
+    from mjcont.studies.outputs import map_csv
+
+    g = plan.given
+    found = special_map(point_of(at.done, g["point"]), g["grid"])
+    files = [map_csv(found, at.folder / f"{plan.name}.csv")] if g["csv"] else []
+    if g["png"] and found.exists.any():
+        options = {"kind": g["kind"]} if len(found.axes) == 2 else {}
+        axes = found.plot(g["quantity"] or next(iter(found.point.free)), **options)
+        files.append(_drawn(axes, plan, at))
+    return found, files
+
+
+def _certificate(plan: Task, at: Running) -> Outcome:
+    from mjcont.motion.certificates import verify_stability
+    from mjcont.studies.outputs import certificate_csv
+
+    g = plan.given
+    found = verify_stability(
+        curve_of(at.done, g["branch"]), g["n"], **{key: g[key] for key in ("amplitude", "tolerance", "max_steps")}
+    )
+    certificate = found.certificate
+    files = [found.save(at.folder / f"{plan.name}.h5")]
+    if g["csv"] and certificate is not None:
+        files.append(certificate_csv(certificate, at.folder / f"{plan.name}.csv"))
+    return certificate, files
+
+
+def _barrier(plan: Task, at: Running) -> Outcome:
+    from mjcont.motion.margins import barrier_along
+    from mjcont.studies.outputs import barrier_csv
+
+    g = plan.given
+    saddles = [b for name in g["saddles"] for b in curves_of(at.done, name)]
+    found = barrier_along(curve_of(at.done, g["branch"]), saddles, search=g["search"])
+    files = [barrier_csv(found, at.folder / f"{plan.name}.csv")] if g["csv"] else []
+    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+
+
+_RUNS: Mapping[str, Callable[[Task, Running], Outcome]] = {
+    "search": _search, "diagram": _diagram, "locus": _locus, "path": _path, "history": _history,
+    "sensitivity": _sensitivity, "worst case": _worst, "map": _map, "certificate": _certificate, "barrier": _barrier,
+}
+
+
+def _given(values: Mapping[str, Any], *keys: str) -> dict[str, Any]:
+    return {key: values[key] for key in keys if values[key] is not None}
+
+
+def _drawn(axes: Any, plan: Task, at: Running) -> Path:
+    from mjcont.drawing.plotting import save_figure
+
+    return save_figure(axes.figure, at.folder / f"{plan.name}.png")
+
+
+def store_curve(result: Any, name: str, csv: bool, folder: Path) -> list[Path]:
+    """Store a branch, a locus, a load path or a history."""
+    files = [result.save(folder / f"{name}.h5")]
+    return [*files, result.to_csv(folder / f"{name}.csv")] if csv else files
+
+
+def curve_of(done: Mapping[str, Any], name: str) -> Branch:
+    """Return one branch by name."""
+    if name not in done:
+        stem = name.rpartition("_")[0]
+        raise unknown_name("branch", name, [n for n in done if n.rpartition("_")[0] == stem])
+    branch: Branch = done[name]
+    return branch
+
+
+def curves_of(done: Mapping[str, Any], name: str) -> list[Any]:
+    """Return the curves that a name in a plot stands for: those of a diagram, or one."""
+    return list(done[name].branches) if name in done and hasattr(done[name], "branches") else [curve_of(done, name)]

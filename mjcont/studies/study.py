@@ -1,0 +1,169 @@
+"""Studies: files that name a model, parameter values, what to compute and what to draw, and what runs them.
+
+docs/studies.md describes the files, `plans` reads and checks them, `studyruns` computes their tables.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from mjcont.commands.progress import Reporter
+from mjcont.curves.collect import units
+from mjcont.curves.continuation import continue_equilibria
+from mjcont.errors import MjcontError
+from mjcont.results.branch import show
+from mjcont.studies.plans import BranchPlan, PlotPlan, Study, Task, check_study, load_study
+from mjcont.studies.runs import Running, compute, curves_of, interrupted, start_of, store_curve, task_line
+
+__all__ = [
+    "BranchPlan", "PlotPlan", "Study", "Task", "check_study", "interruption", "load_study", "output_folder",
+    "run_study", "summary",
+]
+
+_SHOWN = 4
+
+
+def run_study(study: Study, out: str | Path, reporter: Reporter | None = None) -> list[Any]:
+    """Compute what a study asks for, storing each result in the folder `out` as soon as it is done; draw its plots.
+
+    An interrupted curve, search or motion is stored with what it has, and is the last.
+
+    Parameters
+    ----------
+    study : Study
+    out : path
+        A folder, made if it is missing. Files in it of the same names are replaced.
+    reporter : Reporter, optional
+        Hears how the run goes; default nobody.
+
+    Returns
+    -------
+    list
+        The results in the order of `study.plans`: Branch, Equilibria, Diagram, LoadPath, History, ...
+
+    Raises
+    ------
+    MjcontError
+        If the folder cannot be written to, or something cannot be computed; the results before it are kept.
+    """
+    reporter = reporter or Reporter()
+    folder = output_folder(out)
+    done: dict[str, Any] = {}
+    results: list[Any] = []
+    open_plots = list(study.plots)
+    for plan in study.plans:
+        result, files = _compute(study, plan, Running(study.mechanism, folder, done, reporter))
+        results.append(result)
+        done[plan.name] = result
+        if isinstance(plan, Task) and plan.kind == "diagram":
+            done |= {f"{plan.name}_{i}": branch for i, branch in enumerate(result, 1)}
+        reporter.finished(result, files)
+        if interrupted(result):
+            break
+        for plot in [p for p in open_plots if done.keys() >= set(p.branches)]:
+            open_plots.remove(plot)
+            reporter.plotted(draw(plot, done, folder))
+    return results
+
+
+def interruption(study: Study, results: Sequence[Any], out: str | Path) -> str:
+    """Return what there is of a study that the user stopped, a sentence; empty if it went through."""
+    if not results or not interrupted(results[-1]):
+        return ""
+    plan, skipped = study.plans[len(results) - 1], len(study.plans) - len(results)
+    points = f"the {len(results[-1])} points so far" if hasattr(results[-1], "__len__") else "what there is so far"
+    stored = Path(out) / f"{plan.name}.h5"
+    held = f"{stored} holds {points}" if stored.is_file() else f"'{plan.name}' has {points}"
+    return f"interrupted: {held}" + (f"; {skipped} more not computed" if skipped else "")
+
+
+def output_folder(path: str | Path) -> Path:
+    """Return a folder, made if it is missing, after trying to write to it."""
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        reason = "it is a file" if folder.is_file() else error.strerror
+        raise MjcontError(f"cannot write to the output folder '{path}': {reason}") from error
+    return folder
+
+
+def _compute(study: Study, plan: BranchPlan | Task, at: Running) -> tuple[Any, list[Path]]:
+    """Compute one table of a study and store it; errors name the study and the table."""
+    try:
+        if isinstance(plan, Task):
+            what = f"{study.mechanism.name}, {task_line(study.mechanism, plan)}"
+            at.reporter.started(plan.name, what, _watched(study, plan))
+            return compute(plan, at)
+        at.reporter.started(plan.name, _task(study, plan), _shown_columns(study, plan))
+        pose = {"from": plan.origin, "start": plan.start, "keyframe": plan.keyframe, "state": plan.state}
+        branch = continue_equilibria(
+            study.mechanism,
+            plan.parameter,
+            plan.bounds,
+            **start_of(pose, at.done),
+            direction=plan.direction,
+            zeros=plan.zeros,
+            progress=at.reporter.point,
+            **plan.settings,
+        )
+        return branch, store_curve(branch, plan.name, plan.csv, at.folder)
+    except MjcontError as error:
+        kind = plan.kind if isinstance(plan, Task) else "branch"
+        raise type(error)(f"study '{study.file}': {kind} '{plan.name}': {error}") from error
+    finally:
+        at.reporter.stopped()
+
+
+def _watched(study: Study, plan: Task) -> list[tuple[str, str]]:
+    """Return the columns that points are shown with while a table other than a branch is computed."""
+    unit_of, observables = units(study.mechanism), study.mechanism.observables
+    plotted = [c for p in study.plots if plan.name in p.branches for c in (p.x, p.y)]
+    varying = [plan.given["parameter"]] if plan.kind in ("diagram", "locus") else []
+    wanted = dict.fromkeys([*varying, *(c for c in plotted if c in observables), *observables])
+    return [(n, unit_of[n]) for n in list(wanted)[:_SHOWN]]
+
+
+def _task(study: Study, plan: BranchPlan) -> str:
+    unit_of = units(study.mechanism)
+    low, high = (show(b, unit_of[plan.parameter]) for b in plan.bounds)
+    fixed = [f"{n} = {show(v, unit_of[n])}" for n, v in plan.start.items() if n != plan.parameter]
+    return ", ".join([f"{study.mechanism.name}, {plan.parameter} from {low} to {high}", *fixed])
+
+
+def _shown_columns(study: Study, plan: BranchPlan) -> list[tuple[str, str]]:
+    """Return the columns worth watching, with units: the parameter, what the study asks about, other observables."""
+    unit_of = units(study.mechanism)
+    plotted = [c for p in study.plots if plan.name in p.branches for c in (p.x, p.y)]
+    wanted = dict.fromkeys([plan.parameter, *plan.zeros, *plotted, *study.mechanism.observables])
+    varying = [n for n in wanted if n == plan.parameter or n in study.mechanism.observables]
+    return [(n, unit_of[n]) for n in varying[:_SHOWN]]
+
+
+def draw(plan: PlotPlan, results: Mapping[str, Any], folder: Path) -> Path:
+    """Draw one plot of a study into a folder and return its file."""
+    from mjcont.drawing.plotting import plot, save_figure, set_panel_title
+
+    chosen = [curve for name in plan.branches for curve in curves_of(results, name)]
+    axes: Any = plot(*chosen, x=plan.x, y=plan.y, labels=plan.labels, degrees=plan.degrees)
+    if plan.title:
+        set_panel_title(axes, plan.title)
+    return Path(save_figure(axes.figure, folder / plan.file))
+
+
+def summary(study: Study) -> str:
+    """Return what a study would compute and draw, a line each."""
+    m, count = study.mechanism, len(study.plans)
+    lines = [f"{study.file}: nothing wrong; {m.name}, {m.n} degrees of freedom, {count} result{'s' * (count != 1)}"]
+    for plan in study.plans:
+        what = task_line(m, plan) if isinstance(plan, Task) else f"branch: {_task(study, plan).partition(', ')[2]}"
+        lines.append(f"  {plan.name}: {what}")
+    if study.sweep is not None:
+        lines += [f"  {p.name}: {p.label}, followed in a sweep by `mjcont sweep`" for p in study.sweep.points]
+    lines += [f"  {p.file}: plot of {p.y} against {p.x}, {', '.join(p.branches)}" for p in study.plots]
+    return "\n".join(lines)

@@ -1,0 +1,362 @@
+"""The tables of a study file, in the order in which they are computed; docs/studies.md has them as `Key` says them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from mjcont.curves.collect import units
+from mjcont.curves.continuation import check_bounds
+from mjcont.curves.loci import CONTINUABLE
+from mjcont.errors import MjcontError, unknown_name
+from mjcont.motion.loadpaths import LANDINGS
+from mjcont.motion.stepping import INTEGRATORS
+from mjcont.results.branch import show
+from mjcont.studies import keys as k
+from mjcont.studies import references as r
+from mjcont.studies.keys import Context, Key, Kind
+from mjcont.studies.schema import Table
+from mjcont.studies.waveforms import read_input
+
+PLOT_SUFFIXES = (".png", ".pdf", ".svg")
+CURVES = ("branch", "locus", "diagram", "path")
+SPECIAL = ("branch", "locus")
+_POSED = ("start", "keyframe", "state")
+_LOCATED = ("LP", "HB", "BP", "CP", "BT", "ZH", "UZ")
+
+
+def _own_bounds(found: dict[str, Any], context: Context) -> tuple[float, float]:
+    return found["bounds"] or check_bounds(context.mechanism, found["parameter"], None)
+
+
+def _one_start(found: Mapping[str, Any], table: Table, others: tuple[str, ...] = _POSED) -> None:
+    """Refuse a point of another result together with a start of one's own."""
+    if found.get("keyframe") and found.get("state"):
+        raise table.error("state", "give a keyframe or a state, not both")
+    for key in others:
+        if found["from"] and found[key]:
+            raise table.error(key, "'from' says where it starts, with all parameter values: leave this key out")
+
+
+def _check_branch(found: dict[str, Any], table: Table, context: Context) -> None:
+    _one_start(found, table)
+    name = found["parameter"]
+    low, high = found["bounds"] = _own_bounds(found, context)
+    found["start"] = {**context.common, **found["start"]}
+    value, unit = found["start"].get(name, context.mechanism.parameter(name).value), context.unit(name)
+    if not found["from"] and not low <= value <= high:
+        raise table.error(
+            "start",
+            f"{name} = {show(value, unit)} lies outside the bounds {show(low, unit)} .. {show(high, unit)}: "
+            f"give start = {{ {name} = ... }} inside them",
+        )
+
+
+def _check_search(found: dict[str, Any], table: Table, context: Context) -> None:
+    found["start"] = {**context.common, **found["start"]}
+
+
+def _check_diagram(found: dict[str, Any], table: Table, context: Context) -> None:
+    _one_start(found, table, ("start", "keyframes"))
+    _check_branch({**found, "keyframe": None, "state": None}, table, context)
+    found["bounds"] = _own_bounds(found, context)
+    found["start"] = {**context.common, **found["start"]}
+
+
+def _free_at(reference: k.Reference, context: Context) -> tuple[str, ...]:
+    stem = reference.result if reference.result in context.known else reference.result.rpartition("_")[0]
+    return context.known[stem].free
+
+
+def _check_locus(found: dict[str, Any], table: Table, context: Context) -> None:
+    if found["parameter"] in _free_at(found["point"], context):
+        raise table.error("parameter", f"{found['parameter']} is free already on the curve of {found['point']}: "
+                                       "name another parameter")
+    found["bounds"] = _own_bounds(found, context)
+
+
+def _loads(table: Table, key: str, context: Context) -> tuple[dict[str, float], ...]:
+    return tuple(k.value_table(inner, context) for inner in table.tables(key))
+
+
+def _values(table: Table, key: str, context: Context) -> tuple[float, ...]:
+    name, given = table.data.get("parameter"), table.data[key]
+    unit, count = context.unit(name), max(len(given), 2) if isinstance(given, list) else 2
+    found = table.quantities(key, [unit] * count, "at least two numbers such as [0, 30, 0]") or ()
+    if isinstance(name, str) and name in context.mechanism.parameters:
+        with k.about(table, key):
+            for value in found:
+                context.mechanism.values({name: value})
+    return found
+
+
+def _check_path(found: dict[str, Any], table: Table, context: Context) -> None:
+    _one_start(found, table)
+    if (found["parameter"] is None) == (found["loads"] is None) or (found["parameter"] is None) != (
+        found["values"] is None
+    ):
+        raise table.error("parameter", "give parameter and values, or loads: an array of tables of parameter values")
+    rows = found["loads"] if found["values"] is None else [{found["parameter"]: v} for v in found["values"]]
+    if len(rows) < 2 or all(row == rows[0] for row in rows):
+        raise table.error("values" if found["loads"] is None else "loads", "a path needs at least two different loads")
+    found["start"] = {**context.common, **found["start"]}
+
+
+def _inputs(table: Table, key: str, context: Context) -> dict[str, Any]:
+    inner, found = table.table(key), {}
+    for name in inner.data:
+        with context.noting(), k.about(inner, name):
+            unit = context.mechanism.parameter(name).unit
+            found[name], extremes = read_input(inner, name, unit)
+            for value in extremes:
+                context.mechanism.values({name: value})
+    return found
+
+
+def _check_history(found: dict[str, Any], table: Table, context: Context) -> None:
+    _one_start(found, table)
+    valid = [*found["inputs"], *context.mechanism.observables]
+    for i, name in enumerate(found["columns"]):
+        if name not in valid:
+            raise table.error(f"columns[{i}]", unknown_name("input or observable", name, valid))
+    found["start"] = {**context.common, **found["start"]}
+
+
+def _tolerances(table: Table, key: str, context: Context) -> dict[str, float]:
+    inner, found = table.table(key), {}
+    for name in inner.data:
+        with context.noting(), k.about(inner, name):
+            found[name] = k.positive(context.mechanism.parameter(name).unit)(inner, name, context)
+    return found
+
+
+def _quantities(table: Table, key: str, context: Context) -> tuple[str, ...]:
+    names, valid = table.texts(key), [*units(context.mechanism), "omega"]
+    for i, name in enumerate(names):
+        if name not in valid:
+            raise table.error(f"{key}[{i}]", unknown_name("quantity", name, valid))
+    return names
+
+
+def _not_own(found: Mapping[str, Any], key: str, table: Table, context: Context) -> None:
+    """Refuse parameters that the point's own equations determine."""
+    reference = found["point"]
+    free = _free_at(reference, context)
+    own = free if reference.label[:2] in ("CP", "BT", "ZH") else free[:1]
+    for name in found[key] or ():
+        if name in own and reference.label[:2] != "UZ":
+            raise table.error(key, f"{name} is free at {reference}, which determines it: name other parameters")
+
+
+def _check_sensitivity(found: dict[str, Any], table: Table, context: Context) -> None:
+    _not_own(found, "parameters", table, context)
+    for name in found["tolerances"] or ():
+        if found["parameters"] and name not in found["parameters"]:
+            raise table.error("tolerances", unknown_name("parameter", name, found["parameters"]))
+
+
+def _check_worst(found: dict[str, Any], table: Table, context: Context) -> None:
+    _not_own(found, "ranges", table, context)
+    if found["grid"] and len(found["ranges"]) > 2:
+        raise table.error("grid", "a confirming grid needs one or two parameters in ranges")
+
+
+def _check_map(found: dict[str, Any], table: Table, context: Context) -> None:
+    _not_own(found, "grid", table, context)
+    if found["kind"] == "surface" and len(found["grid"]) == 1:
+        raise table.error("kind", "a surface needs two parameters in grid")
+
+
+def _plot_file(table: Table, key: str, context: Context) -> str:
+    file = table.text(key)
+    if not k.FILE_STEM.fullmatch(file) or Path(file).suffix not in PLOT_SUFFIXES:
+        suffixes = ", ".join(PLOT_SUFFIXES)
+        raise table.error(key, f"'{file}' must be a file name without a folder, ending in one of {suffixes}")
+    return file
+
+
+def _check_plot(found: dict[str, Any], table: Table, context: Context) -> None:
+    if not found["branches"]:
+        plain = tuple(n for n, known in context.known.items() if known.kind in ("branch", "diagram"))
+        found["branches"] = plain or tuple(n for n, known in context.known.items() if known.kind in CURVES)
+    if not found["branches"]:
+        raise table.error("branches", "the study computes no branch, locus, diagram or path to draw")
+
+
+_NAME = Key(k.result_name, "Names its files, and the result elsewhere in the study. Letters, digits, `-`, `_`, `.`.",
+            needed=True)
+_PARAMETER = Key(k.parameter, "The parameter that varies.", needed=True)
+_BOUNDS = Key(k.bounds, "`[low, high]`.", otherwise="the parameter's own")
+_START = Key(k.values, "Parameter values at the start, over those of `[parameters]`.", {}, otherwise="none")
+_KEYFRAME = Key(k.keyframe, "The keyframe where the first equilibrium is looked for.", otherwise="the initial pose")
+_STATE = Key(k.state, "The same, as an array of all position coordinates.", otherwise="the initial pose")
+_FROM = Key(r.reference("search", "branch", "locus", "path"),
+            "A point of an earlier result, such as `\"found:E1\"`, in place of start, keyframe and state.",
+            otherwise="none")
+_DIRECTION = Key(k.direction, "`1` or `-1`: only that way, in which the parameter first grows or falls.",
+                 otherwise="both")
+_ZEROS = Key(k.zeros, "Columns and values whose passing is labelled UZ, such as `{ theta_1 = \"10 deg\" }`.", {},
+             otherwise="none")
+_SETTINGS = Key(k.settings, "Fields of `mjcont.Settings`: `ds`, `ds_max`, `angle`, `chord`, `max_points`, ...", {},
+                otherwise="its defaults")
+_POINT = Key(r.reference(*SPECIAL, labels=_LOCATED),
+             "The special point, such as `\"equilibria:LP1\"`, or `\"D_1:LP1\"` on the first branch of a diagram `D`.",
+             needed=True)
+_BRANCH = Key(r.curve, "The branch; the first of a diagram `D` is `D_1`.", needed=True)
+
+
+def _csv(text: str, default: bool) -> Key:
+    return Key(k.flag, f"Whether to write NAME.csv: {text}.", default)
+
+
+def _png(text: str) -> Key:
+    return Key(k.flag, f"Whether to draw NAME.png: {text}.", True)
+
+
+SEARCH = Kind("searches", "Every equilibrium in a region (`find_equilibria`). Its points are E1, E2, ...", {
+    "name": _NAME,
+    "start": Key(k.values, "Parameter values, over those of `[parameters]`.", {}, otherwise="none"),
+    "region": Key(k.region, "Ranges of joints or observables, such as `{ theta_1 = [\"-90 deg\", 0] }`.", {},
+                  otherwise="everywhere"),
+    "starts": Key(k.whole(1), "Starts in each round.", 200),
+    "seed": Key(k.whole(0), "Seed of the starts.", 0),
+    "max_solutions": Key(k.whole(1), "Equilibria after which the search ends.", 200),
+    "max_seconds": Key(k.positive("s"), "Time after which the search ends.", otherwise="no limit"),
+    "keyframes": Key(k.flag, "Whether the model's keyframes are further starts.", True),
+    "csv": _csv("a row an equilibrium", True),
+}, _check_search)
+
+BRANCH = Kind("branch", "A curve of equilibria in one parameter.", {
+    "name": _NAME, "parameter": _PARAMETER, "bounds": _BOUNDS, "start": _START, "keyframe": _KEYFRAME,
+    "state": _STATE, "from": _FROM, "direction": _DIRECTION, "zeros": _ZEROS,
+    "csv": _csv("a row a point, angles in degrees", False), "settings": _SETTINGS,
+}, _check_branch)
+
+DIAGRAM = Kind("diagrams", "Every branch that the starts reach through branch points (`bifurcation_diagram`). "
+                           "They are NAME_1, NAME_2, ..., each with a file.", {
+    "name": _NAME, "parameter": _PARAMETER, "bounds": _BOUNDS, "start": _START,
+    "keyframes": Key(k.keyframes, "Keyframes to start from as well.", (), otherwise="none"),
+    "from": Key(r.references("search", "branch", "locus", "path"),
+                "Points of earlier results to start from; a search's name stands for all its points.",
+                otherwise="none"),
+    "max_branches": Key(k.whole(1), "Branches after which the diagram ends.", 50),
+    "csv": _csv("a file a branch", False), "settings": _SETTINGS,
+}, _check_diagram)
+
+LOCUS = Kind("loci", "A special point followed in one more parameter (`continue_special`).", {
+    "name": _NAME,
+    "point": Key(r.reference(*SPECIAL, labels=CONTINUABLE), _POINT.text, needed=True),
+    "parameter": Key(k.parameter, "The parameter that is freed.", needed=True),
+    "bounds": _BOUNDS, "direction": _DIRECTION, "zeros": _ZEROS,
+    "csv": _csv("a row a point", False), "settings": _SETTINGS,
+}, _check_locus)
+
+PATH = Kind("paths", "The response to a load that changes slowly, with its jumps (`load_path`).", {
+    "name": _NAME,
+    "parameter": Key(k.parameter, "The parameter that changes; with `values`.", otherwise="see `loads`"),
+    "values": Key(_values, "Its values along the path, such as `[0, 30, 0]`.", otherwise="see `loads`"),
+    "loads": Key(_loads, "Where several parameters change: `[{ F = 0 }, { F = 3, k_sp = 12 }]`.",
+                 otherwise="see `values`"),
+    "start": _START, "keyframe": _KEYFRAME, "state": _STATE, "from": _FROM,
+    "landing": Key(k.choice("landing", *LANDINGS), "Where an escape lands: `\"motion\"`, or `\"creep\"` (no inertia).",
+                   "motion"),
+    "max_time": Key(k.positive("s"), "Time after which a motion counts as not coming to rest.", 1000.0),
+    "max_jumps": Key(k.whole(0), "Jumps after which the path ends.", 50),
+    "csv": _csv("a row a point, in order of travel", False), "settings": _SETTINGS,
+}, _check_path)
+
+HISTORY = Kind("histories", "A motion in time (`simulate`).", {
+    "name": _NAME,
+    "inputs": Key(_inputs, "Parameters that vary with time: a number, a table or a [shape](#inputs).", {},
+                  otherwise="none"),
+    "duration": Key(k.positive("s"), "How long.", 10.0),
+    "start": _START, "keyframe": _KEYFRAME, "state": _STATE, "from": _FROM,
+    "timestep": Key(k.positive("s"), "The step; with `tol` the first and largest.", otherwise="the model's"),
+    "integrator": Key(k.choice("integrator", *INTEGRATORS, "model"),
+                      "One of " + ", ".join(f'`"{name}"`' for name in INTEGRATORS) + ", or `\"model\"`: its own.",
+                      "discrete"),
+    "tol": Key(k.positive("1"), "Halve the step until that changes the motion by less.", otherwise="no control"),
+    "until_rest": Key(k.positive("1"), "End when every speed has stayed below this over 1 s.", otherwise="no"),
+    "samples": Key(k.whole(2), "About how many samples are stored.", 2000),
+    "csv": _csv("a row a sample", False),
+    "columns": Key(k.columns, "Inputs and observables to draw against time in NAME.png.", (), otherwise="no picture"),
+}, _check_history)
+
+SENSITIVITY = Kind("sensitivities", "How a special point moves with every parameter (`sensitivities`).", {
+    "name": _NAME, "point": _POINT,
+    "parameters": Key(k.parameters, "Names or paths such as `\"body:link_1.mass\"`.",
+                      otherwise="all that the model declares"),
+    "quantities": Key(_quantities, "What moves: the point's parameters, observables, `omega`.",
+                      otherwise="the point's parameters"),
+    "tolerances": Key(_tolerances, "Changes that the chart is for, such as `{ m_1 = \"50 g\" }`.", {},
+                      otherwise="1 deg, or 1 %"),
+    "csv": _csv("a row a parameter", True), "png": _png("a tornado chart"),
+}, _check_sensitivity)
+
+WORST = Kind("worst_cases", "The extreme of a special point over a box of parameters (`worst_case`).", {
+    "name": _NAME, "point": _POINT,
+    "ranges": Key(k.ranges, "The box, such as `{ k_sp = [8, 12] }`.", needed=True),
+    "quantity": Key(k.column, "What is extreme.", otherwise="the point's first parameter"),
+    "maximise": Key(k.flag, "`false` for the smallest.", True),
+    "grid": Key(k.whole(2), "Values a parameter of a grid that confirms the extreme.", otherwise="no grid"),
+    "tol": Key(k.positive("1"), "Projected gradient at which it has converged.", 1e-7),
+    "csv": _csv("the way to the extreme", True),
+}, _check_worst)
+
+MAP = Kind("maps", "A special point over a grid of one or two parameters (`special_map`).", {
+    "name": _NAME, "point": _POINT,
+    "grid": Key(k.grid, "Values, or `{ from, to, count }`, such as `{ k_sp = { from = 8, to = 12, count = 5 } }`.",
+                needed=True),
+    "quantity": Key(k.column, "What is drawn.", otherwise="the point's first parameter"),
+    "kind": Key(k.choice("kind of picture", "contour", "surface"),
+                "For two parameters: `\"contour\"` or `\"surface\"`.", "contour"),
+    "csv": _csv("a row a node", True), "png": _png("a line, contours or a surface"),
+}, _check_map)
+
+CERTIFICATE = Kind("certificates", "Stability held against simulations beside points of a branch (`verify_stability`). "
+                                   "NAME.h5 is the branch with its certificate.", {
+    "name": _NAME, "branch": _BRANCH,
+    "n": Key(k.whole(1), "Number of points.", 20),
+    "amplitude": Key(k.positive("1"), "Of the disturbance.", 1e-7),
+    "tolerance": Key(k.positive("1"), "Relative difference of rate and eigenvalue that confirms.", 0.05),
+    "max_steps": Key(k.whole(1), "Steps a point.", 200_000),
+    "csv": _csv("a row a point checked", True),
+})
+
+BARRIER = Kind("barriers", "The energy that dislodges a rest, along a branch (`barrier_along`).", {
+    "name": _NAME, "branch": _BRANCH,
+    "saddles": Key(r.curves("branch", "diagram"), "Branches on which to look for passes, too.", (), otherwise="none"),
+    "search": Key(k.flag, "Whether passes are searched for.", True),
+    "csv": _csv("a row a rest", True), "png": _png("the barrier against the parameter"),
+})
+
+PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
+    "file": Key(_plot_file, "File name ending in `.png`, `.pdf` or `.svg`, without a folder.", needed=True),
+    "x": Key(k.column, "Column: a parameter or an observable.", needed=True),
+    "y": Key(k.column, "The same.", needed=True),
+    "branches": Key(r.curves(*CURVES), "Names of branches, diagrams, loci and paths.",
+                    otherwise="all branches and diagrams; if there are none, all loci and paths"),
+    "title": Key(k.text, "A string.", ""),
+    "labels": Key(k.flag, "`false` leaves out the labels of special points.", True),
+    "degrees": Key(k.flag, "`false` draws angles in radians.", True),
+}, _check_plot)
+
+# by kind of result, in the order in which they are computed
+KINDS = {
+    "search": SEARCH, "branch": BRANCH, "diagram": DIAGRAM, "locus": LOCUS, "path": PATH, "history": HISTORY,
+    "sensitivity": SENSITIVITY, "worst case": WORST, "map": MAP, "certificate": CERTIFICATE, "barrier": BARRIER,
+}
+
+
+def known(kind: str, found: Mapping[str, Any], data: Mapping[str, Any], context: Context) -> k.Known:
+    """Return what later tables may know of a result, also where its own table has mistakes."""
+    name = data.get("parameter")
+    free = (name,) if isinstance(name, str) else ()
+    point = found.get("point")
+    if kind == "locus" and point is not None:
+        try:
+            free = (*_free_at(point, context), *free)
+        except (MjcontError, KeyError):
+            free = ()
+    return k.Known(kind, free, bool(data.get("zeros")))

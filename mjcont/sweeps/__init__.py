@@ -1,0 +1,1 @@
+"""Many variants of a model, crash-safe, on any executor."""

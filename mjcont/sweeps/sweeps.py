@@ -1,0 +1,292 @@
+"""The verb `sweep`: special points of many variants of a model, stored case by case."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mjcont.curves.collect import provenance, units
+from mjcont.errors import MjcontError, ParameterError, StudyError
+from mjcont.influence.critical import check_alone, check_not_own, point_names
+from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.search.spanning import heights, spanning_tree
+from mjcont.results.branch import Column, SpecialPoint
+from mjcont.results.files import frozen
+from mjcont.results.sweeps import SweepTable
+from mjcont.studies.plans import Study
+from mjcont.studies.study import output_folder
+from mjcont.studies.sweeps import SweepPlan
+from mjcont.sweeps.cluster import make_crew
+from mjcont.sweeps.designs import DESIGNS, Spread, Vary, make_design, scaled_distances
+from mjcont.sweeps.engine import Run, Tree
+from mjcont.sweeps.jobs import (
+    NOMINAL,
+    describe_model,
+    plain_point,
+    read_quantity,
+    trace_points,
+    write_job,
+)
+from mjcont.sweeps.journal import Journal, digest
+
+Progress = Callable[[int, int, int], None]
+
+
+@dataclass(frozen=True, slots=True)
+class _Setup:
+    """A sweep before its first case: the model, what varies, how the points at the nominal case are had."""
+
+    mechanism: Any
+    plan: SweepPlan
+    friction: str
+    nominal: Mapping[str, float]
+    own: frozenset[str]
+    record: tuple[str, ...]
+    branches: tuple[Any, ...]
+    given: Mapping[str, SpecialPoint] | None
+    text: str = ""
+
+    def points(self) -> Mapping[str, SpecialPoint]:
+        if self.given is not None:
+            return self.given
+        return trace_points(self.mechanism, [asdict(b) for b in self.branches], self.plan.points, {})
+
+
+def sweep(
+    what: Study | Mapping[str, SpecialPoint],
+    vary: Vary | None = None,
+    *,
+    out: str | Path,
+    design: str | None = None,
+    cases: int | None = None,
+    seed: int | None = None,
+    record: Sequence[str] | None = None,
+    limit: int | None = None,
+    workers: int | None = None,
+    executor: Executor | None = None,
+    scheduler: str | None = None,
+    progress: Progress | None = None,
+) -> SweepTable:
+    """Compute special points of many variants of a model, each with other parameter values.
+
+    A sweep that was stopped goes on where it was when it is called again with the same arguments.
+
+    Parameters
+    ----------
+    what : Study, or mapping of str to SpecialPoint
+        A study with a table [sweep], or points by names of your own; all have the same model and nominal values.
+    vary : mapping of str to Spread or values
+        Which parameters (names or paths) vary, and how. Of a study: instead of its own; so are the next four.
+    out : path
+        A folder for sweep.jsonl (the journal), sweep.csv and sweep.h5.
+    design : {"latin hypercube", "monte carlo", "grid", "list"}
+    cases, seed : int
+        Of the first two designs.
+    record : sequence of str
+        Quantities such as "cusp.F_ul"; default the parameters that each point's defining system solves for.
+    limit : int, optional
+        Only so many cases, the first of the design.
+    workers : int, optional
+        Processes on this machine; default one a processor. With 1, this process itself.
+    executor : concurrent.futures.Executor, optional
+        Instead of them.
+    scheduler : str, optional
+        Instead of them: address of a Dask scheduler.
+    progress : callable, optional
+        Called as progress(done, all, failed).
+
+    Returns
+    -------
+    SweepTable
+
+    Raises
+    ------
+    MjcontError
+        If something in the arguments does not fit, the folder holds another sweep, or all workers are lost.
+    """
+    setup = _of_study(what) if isinstance(what, Study) else _of_points(what, vary)
+    changed: dict[str, Any] = {"vary": vary, "design": design, "cases": cases, "seed": seed}
+    plan = replace(setup.plan, **{k: v for k, v in changed.items() if v is not None})
+    record = setup.record if record is None else tuple(record)
+    if len(set(record)) != len(record) or not record:
+        raise ParameterError(f"name at least one quantity to record, each once; got {', '.join(record) or 'none'}")
+    names = list(plan.vary)
+    model = describe_model(setup.mechanism, names, setup.friction)
+    nominal = {**setup.mechanism.values(), **setup.nominal}
+    setup = replace(setup, plan=plan, record=tuple(record), nominal={n: nominal[n] for n in names})
+    _check_names(setup)
+    values = make_design(plan.design, plan.vary, setup.nominal, cases=plan.cases, seed=plan.seed)
+    if limit is not None and limit < 1:
+        raise ParameterError(f"limit must be a whole number from 1 on, got {limit}")
+    values = values[:limit]
+    folder = output_folder(out)
+    with Journal(folder / "sweep.jsonl", _header(setup, model, values), lambda: _begin(setup, model)) as journal:
+        _compute(setup, values, journal, lambda: make_crew(executor, scheduler, workers), progress)
+        table = _table(setup, values, journal)
+    table.to_csv(folder / "sweep.csv")
+    table.save(folder / "sweep.h5")
+    return table
+
+
+# -- setting up ----------------------------------------------------------------------------------------------
+
+
+def _of_study(study: Study) -> _Setup:
+    plan = study.sweep
+    if plan is None:
+        raise StudyError(f"study '{study.file}': it has no table [sweep]: docs/sweeps.md tells what goes in there")
+    needed = {p.branch for p in plan.points if p.branch}
+    branches = tuple(b for b in study.branches if b.name in needed)
+    starts = [study.mechanism.values(b.start) for b in branches]
+    for name in plan.vary:
+        if len({s[name] for s in starts}) > 1:
+            raise StudyError(
+                f"study '{study.file}': sweep.vary.{name}: its nominal value differs between the branches "
+                f"{', '.join(sorted(needed))}"
+            )
+    own: dict[str, tuple[str, ...]] = {}
+    for p in plan.points:
+        first = next((b.parameter for b in branches if b.name == p.branch), "")
+        own[p.name] = (*own[p.of], p.parameter) if p.of else (first,)
+    record = plan.record or tuple(f"{n}.{q}" for n, qs in own.items() for q in qs)
+    friction = study.friction
+    text = Path(study.file).read_text(encoding="utf-8")
+    nominal = {n: starts[0][n] for n in plan.vary}
+    solved = frozenset(q for qs in own.values() for q in qs)
+    return _Setup(study.mechanism, plan, friction, {**starts[0], **nominal}, solved, record, branches, None, text)
+
+
+def _of_points(points: Mapping[str, SpecialPoint], vary: Vary | None) -> _Setup:
+    if not points or vary is None:
+        raise ParameterError("name at least one special point, and say what varies")
+    for name, p in points.items():
+        if not name.isidentifier():
+            raise ParameterError(f"'{name}': a point's name consists of letters, digits and '_'")
+        if not point_names(p):
+            raise MjcontError(f"{name}: only special points can be followed, this is an equilibrium")
+    first = next(iter(points.values()))
+    for name, p in points.items():
+        if p.problem is not first.problem:
+            raise ParameterError(f"{name} belongs to another Mechanism: the points of a sweep share one")
+    nominal = first.problem.values(first.parameters)
+    for n in vary:
+        first.problem.parameter(n)
+        if len({p.problem.values(p.parameters)[n] for p in points.values()}) > 1:
+            raise ParameterError(f"the nominal value of {n} differs between the points")
+    record = tuple(f"{n}.{q}" for n, p in points.items() for q in point_names(p))
+    plan = SweepPlan((), {}, DESIGNS[0])
+    own = frozenset(q for p in points.values() for q in point_names(p))
+    friction = "frictionless"
+    return _Setup(first.problem, plan, friction, nominal, own, record, (), points)
+
+
+def _check_names(setup: _Setup) -> None:
+    """Refuse parameters that the points solve for, and pairs that act on the same field."""
+    parameters = {n: setup.mechanism.parameter(n) for n in setup.plan.vary}
+    for name in parameters:
+        if name in setup.own:
+            raise ParameterError(f"{name} is what the points are solved for: it cannot vary, record it")
+    plain = [p for p in parameters.values() if p.kind not in ("gravity", "spec")]
+    for i, one in enumerate(plain):
+        for other in plain[:i]:
+            if not one.entries.isdisjoint(other.entries):
+                raise ParameterError(f"{one.name} and {other.name} act on the same field of the model: name one")
+
+
+def _header(setup: _Setup, model: Mapping[str, Any], values: Array) -> dict[str, Any]:
+    plan = setup.plan
+    where = {n: plain_point(p) for n, p in setup.given.items()} if setup.given is not None else [
+        [asdict(p) for p in plan.points], [asdict(b) for b in setup.branches]]
+    seeded = f", seed {plan.seed}" if any(isinstance(s, Spread) for s in plan.vary.values()) else ""
+    return {
+        "what": f"{plan.design} of {len(values)} cases over {', '.join(plan.vary)}{seeded}",
+        "identity": {
+            "model": digest(model),
+            "design": digest([list(plan.vary), values.tolist(), plan.deepest, dict(setup.nominal)]),
+            "points": digest([where, list(setup.record), plan.method]),
+            "versions": digest(provenance(None)),
+        },
+    }
+
+
+def _begin(setup: _Setup, model: Mapping[str, Any]) -> dict[str, Any]:
+    """Compute the nominal case and return it with the job that the workers get."""
+    points = setup.points()
+    for p in points.values():
+        for name in setup.plan.vary:
+            check_not_own(p, name)
+            check_alone(p, name)
+    nominal = {}
+    for quantity in setup.record:
+        name = quantity.partition(".")[0]
+        if name not in points:
+            raise ParameterError(f"'{quantity}': a quantity is POINT.NAME, with a point among {', '.join(points)}")
+        nominal[quantity] = read_quantity(points, quantity)
+    wanted = {q.partition(".")[0] for q in setup.record}
+    kept = {n: p for n, p in points.items() if n in wanted}
+    plan, names = setup.plan, list(setup.plan.vary)
+    job = write_job(model, names, kept, setup.record, plan.method, plan.points, setup.branches)
+    return {"nominal": {**setup.nominal, **nominal}, "job": job, "provenance": provenance(setup.mechanism),
+            "study": setup.text}
+
+
+# -- computing -----------------------------------------------------------------------------------------------
+
+
+def _compute(
+    setup: _Setup, values: Array, journal: Journal, crew_of: Callable[[], Any], progress: Progress | None
+) -> None:
+    """Compute the cases that the journal does not have."""
+    failed = sum(r["status"] == "failed" for r in journal.records.values())
+    tell: Progress = progress or (lambda done, total, failed: None)
+    tell(len(journal.records), len(values), failed)
+    if len(journal.records) == len(values):
+        return
+
+    def store(records: Sequence[Mapping[str, Any]]) -> None:
+        nonlocal failed
+        journal.add(records)
+        failed += sum(r["status"] == "failed" for r in records)
+        tell(len(journal.records), len(values), failed)
+
+    parents = np.full(len(values), NOMINAL)
+    if setup.plan.method == "follow":
+        parents = spanning_tree(scaled_distances(values, list(setup.nominal.values())), setup.plan.deepest)
+    tree = Tree(parents.tolist(), heights(parents).tolist(), journal.records)
+    crew = crew_of()
+    try:
+        Run(journal.header["job"], values.tolist(), tree, journal.records, crew, store).go()
+    finally:
+        crew.close()
+
+
+def _table(setup: _Setup, values: Array, journal: Journal) -> SweepTable:
+    rows = [journal.records[i] for i in range(len(values))]
+    unit_of = units(setup.mechanism)
+    columns = {
+        n: Column(n, unit_of[n], "parameter", frozen(values[:, k].copy())) for k, n in enumerate(setup.plan.vary)
+    }
+    for q in setup.record:
+        found = [r["values"].get(q) for r in rows]
+        column = np.array([math.nan if v is None else v for v in found])
+        columns[q] = Column(q, unit_of.get(q.partition(".")[2], ""), "quantity", frozen(column))
+    seed = {"seed": str(setup.plan.seed), "method": setup.plan.method}
+    return SweepTable(
+        setup.mechanism.name,
+        journal.header["what"],
+        columns,
+        frozen(np.arange(len(rows))),
+        frozen(np.array([r["from"] for r in rows])),
+        frozen(np.array([r["status"] for r in rows], dtype="U8")),
+        tuple(r["message"] for r in rows),
+        json.loads(json.dumps(journal.header["nominal"])),
+        {**journal.header["provenance"], **seed},
+        journal.header["study"],
+    )

@@ -1,0 +1,175 @@
+"""Reproducing figures: parallel processes, resuming, failures, reports; and the paper's figures that take seconds."""
+
+import json
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mjcont as mc
+from mjcont.paper import reproduce as module
+from mjcont.paper.reproduce import Finding, available, distances, load_script, reproduce, whole
+
+GOOD = '''"""Figure 1: a line.
+
+A caption with <angle> brackets.
+"""
+from pathlib import Path
+
+from mjcont.drawing.plotting import new_figure, save_figure
+from mjcont.paper.reproduce import Finding
+
+
+def main(out):
+    with open(out / "runs.txt", "a") as f:
+        f.write("run ")
+    figure, ax = new_figure()
+    ax.plot([0, 1], [0, 1])
+    save_figure(figure, out / "fig01.png")
+    return [Finding("one | two & three", "1 < 2", True), Finding("it is blue", "red", False)]
+'''
+BAD = '"""Figure 2: an error."""\n\n\ndef main(out):\n    raise ValueError("first line\\nsecond line")\n'
+DEAD = '"""Figure 4: a crash."""\nimport os\n\n\ndef main(out):\n    os._exit(7)\n'
+
+
+@pytest.fixture
+def scripts(tmp_path, monkeypatch):
+    """Return a folder of scripts in place of the paper's."""
+    folder = tmp_path / "scripts"
+    folder.mkdir()
+    (folder / "fig01.py").write_text(GOOD)
+    monkeypatch.setattr(module, "scripts_folder", lambda: folder)
+    return folder
+
+
+def quiet(line: str) -> None:
+    pass
+
+
+def test_a_finished_figure_is_skipped_until_its_inputs_change(scripts, tmp_path):
+    out = tmp_path / "out"
+
+    def runs() -> int:
+        return len((out / "runs.txt").read_text().split())
+
+    reproduce([1], out, say=quiet)
+    reproduce([1], out, say=quiet)
+    assert runs() == 1
+    (out / "fig01.png").unlink()
+    reproduce([1], out, say=quiet)
+    assert runs() == 2
+    (scripts / "fig01.py").write_text(GOOD + "\n")
+    reproduce([1], out, say=quiet)
+    assert runs() == 3
+    reproduce([1], out, force=True, say=quiet)
+    assert runs() == 4
+
+
+def test_a_figure_that_fails_or_crashes_harms_no_other(scripts, tmp_path):
+    (scripts / "fig02.py").write_text(BAD)
+    (scripts / "fig04.py").write_text(DEAD)
+    lines: list[str] = []
+    result = reproduce(None, tmp_path / "out", jobs=2, say=lines.append)
+    assert result.failed == [2, 4]
+    assert lines[-1] == f"report: {result.report}"
+    assert sorted(lines[:-1]) == [
+        "figure 1: 1 of 2 findings hold",
+        "figure 2: failed: ValueError: first line second line",
+        "figure 4: failed: its process ended with code 7",
+    ]
+    assert "Failed: ValueError: first line second line" in result.report.read_text()
+
+
+def test_a_failed_figure_is_drawn_again_the_next_time(scripts, tmp_path):
+    (scripts / "fig01.py").write_text(BAD)
+    assert reproduce([1], tmp_path, say=quiet).failed == [1]
+    (scripts / "fig01.py").write_text(GOOD)
+    assert reproduce([1], tmp_path, say=quiet).failed == []
+
+
+def test_a_script_that_draws_nothing_has_failed(scripts, tmp_path):
+    (scripts / "fig01.py").write_text("def main(out):\n    return []\n")
+    result = reproduce([1], tmp_path, say=quiet)
+    assert result.figures[1].reason == "fig01.py drew no fig01.png"
+
+
+def test_reports_hold_findings_and_pictures_and_are_the_same_every_time(scripts, tmp_path):
+    reports = []
+    for name in ("a", "b"):
+        result = reproduce([1], tmp_path / name, say=quiet)
+        files = ("report.html", "report.md", "fig01.png", "fig01.json")
+        reports.append([(tmp_path / name / f).read_bytes() for f in files])
+    assert reports[0] == reports[1]
+    html, markdown = (data.decode() for data in reports[0][:2])
+    assert result.report == tmp_path / "b" / "report.html"
+    assert '<img src="fig01.png"' in html
+    assert "A caption with &lt;angle&gt; brackets." in html
+    assert "<td>one | two &amp; three</td><td>1 &lt; 2</td>" in html
+    assert "| one \\| two & three | 1 < 2 | holds |" in markdown
+    assert "| it is blue | red | does not hold |" in markdown
+
+
+def test_the_report_covers_figures_of_earlier_runs(scripts, tmp_path):
+    (scripts / "fig03.py").write_text(GOOD.replace("fig01", "fig03").replace("Figure 1", "Figure 3"))
+    reproduce([1], tmp_path, say=quiet)
+    result = reproduce([3], tmp_path, say=quiet)
+    assert list(result.findings) == [3]
+    assert "## Figure 1: a line\n" in (tmp_path / "report.md").read_text()
+
+
+def test_a_record_that_was_cut_short_is_drawn_again(scripts, tmp_path):
+    reproduce([1], tmp_path, say=quiet)
+    record = tmp_path / "fig01.json"
+    record.write_text(record.read_text()[:100])
+    reproduce([1], tmp_path, say=quiet)
+    assert json.loads(record.read_text())["findings"][0]["holds"] is True
+
+
+def test_the_environment_is_left_as_it_was(scripts, tmp_path, monkeypatch):
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    reproduce([1], tmp_path, say=quiet)
+    assert os.environ["OMP_NUM_THREADS"] == "3"
+    assert "OPENBLAS_NUM_THREADS" not in os.environ
+
+
+def test_an_unknown_figure_is_an_error_that_lists_those_there_are(scripts, tmp_path):
+    with pytest.raises(mc.MjcontError, match=r"unknown figure 9\. Valid: 1\."):
+        reproduce([1, 9], tmp_path, say=quiet)
+
+
+def test_wrong_arguments_are_explained(scripts, tmp_path):
+    with pytest.raises(mc.MjcontError, match="jobs must be at least 1, got 0"):
+        reproduce([1], tmp_path, jobs=0)
+    (tmp_path / "file").touch()
+    with pytest.raises(mc.MjcontError, match="cannot make the folder"):
+        reproduce([1], tmp_path / "file")
+
+
+def test_an_unfinished_branch_is_refused_with_its_reason():
+    field = mc.VectorField(lambda u, p: p["mu"] - u, [0.0], {"mu": 0.0})
+    branch = mc.continue_equilibria(field, "mu", bounds=(-1, 1), max_points=3)
+    with pytest.raises(mc.MjcontError, match="equilibria in mu: .*3"):
+        whole(branch)
+
+
+def test_distances_from_a_polyline():
+    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
+    assert distances(np.array([[0.5, 0.2], [2.0, 2.0], [1.0, 0.5]]), square) == pytest.approx([0.2, np.sqrt(2), 0.0])
+
+
+def test_a_finding_holds_plain_booleans():
+    assert Finding("", "", np.bool_(True)).holds is True
+
+
+def test_the_scripts_of_the_paper_are_found():
+    assert {3, 5} <= set(available())
+
+
+@pytest.mark.parametrize(("figure", "holding"), [(3, [True] * 3), (5, [True, True, False, True, True])])
+def test_findings_of_the_overcentre_figures(figure, holding, tmp_path):
+    script = Path(module.scripts_folder()) / f"fig{figure:02d}.py"
+    findings = load_script(script).main(tmp_path)
+    assert [f.holds for f in findings] == holding
+    assert (tmp_path / f"fig{figure:02d}.png").stat().st_size > 10_000
