@@ -98,8 +98,8 @@ def _patched(owner: Any, names: tuple[str, ...], meter: _Meter) -> Iterator[None
 
 def _forget_batches(case: Case) -> None:
     """Have batches made anew."""
-    case.problem._evaluator._batches = {}
-    case.problem._readings._rows = None
+    case.problem._core.evaluator._batches = {}
+    case.problem._core.readings._rows = None
 
 
 def split(case: Case) -> dict[str, float]:

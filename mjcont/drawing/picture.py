@@ -16,7 +16,7 @@ from mjcont.drawing.shapes import Color, Scene, Shape, painted, plane_axes, shap
 from mjcont.drawing.viewer import posed
 from mjcont.errors import MjcontError
 from mjcont.mechanism.mechanism import Mechanism
-from mjcont.mechanism.paths import is_bush
+from mjcont.models.actuators import is_bush
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.branch import Point
 

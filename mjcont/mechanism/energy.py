@@ -14,7 +14,7 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import MjcontError
-from mjcont.mechanism.paths import is_bush
+from mjcont.models.actuators import is_bush
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.results.quantities import Observable
 

@@ -21,7 +21,7 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import MjcontError, ModelError, ParameterError, leaves_domain
-from mjcont.mechanism.parameters import Declaration, agreed_value
+from mjcont.mechanism.declarations import Declaration, agreed_value
 from mjcont.mechanism.specpaths import PREFIX, SpecTarget, resolve_spec_path
 from mjcont.results.quantities import Parameter, default_bounds
 

@@ -12,32 +12,9 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
-_DYN = mujoco.mjtDyn
-_FOLLOWS = (_DYN.mjDYN_FILTER, _DYN.mjDYN_FILTEREXACT, _DYN.mjDYN_MUSCLE)
+from mjcont.models.actuators import _DYN, actuator_of, follower, integrator
+
 INPUT_FIELDS = frozenset({"ctrl", "act", "mocap_pos", "mocap_quat", "eq_active"})
-
-
-def follower(model: mujoco.MjModel, actuator: int) -> bool:
-    """Whether the actuator's activation comes to rest at its control."""
-    return bool(model.actuator_actnum[actuator] == 1 and _DYN(model.actuator_dyntype[actuator]) in _FOLLOWS)
-
-
-def integrator(model: mujoco.MjModel, actuator: int) -> bool:
-    """Whether the actuator's activation is the integral of its control."""
-    integrates = _DYN(model.actuator_dyntype[actuator]) == _DYN.mjDYN_INTEGRATOR
-    return bool(model.actuator_actnum[actuator] == 1 and integrates)
-
-
-def actuator_name(model: mujoco.MjModel, actuator: int) -> str:
-    """Return an actuator's name, made up if it has none."""
-    return mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, actuator) or f"actuator{actuator}"
-
-
-def actuator_of(model: mujoco.MjModel, field: str, index: int) -> int:
-    """Return the actuator that a control or an activation belongs to."""
-    first = model.actuator_ctrladr if field == "ctrl" else model.actuator_actadr
-    count = model.actuator_ctrlnum if field == "ctrl" else model.actuator_actnum
-    return int(np.flatnonzero((first >= 0) & (first <= index) & (index < first + count))[0])
 
 
 def limits(model: mujoco.MjModel, field: str, index: int) -> tuple[float, float, str]:
@@ -164,11 +141,3 @@ def parameter_kind(fields: set[str]) -> str:
     return "input" if fields <= INPUT_FIELDS else "field"
 
 
-def setpoint_unit(model: mujoco.MjModel, actuator: int) -> str:
-    """Return the unit of an integrated setpoint: that of the joint it positions, else none."""
-    joint = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
-    servo = model.actuator_gainprm[actuator, 0] == -model.actuator_biasprm[actuator, 1] != 0.0
-    if not (servo and mujoco.mjtTrn(model.actuator_trntype[actuator]) in joint):
-        return ""
-    kind = mujoco.mjtJoint(model.jnt_type[model.actuator_trnid[actuator, 0]])
-    return {mujoco.mjtJoint.mjJNT_SLIDE: "m", mujoco.mjtJoint.mjJNT_HINGE: "rad"}.get(kind, "")

@@ -14,28 +14,26 @@ import copy
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
-from weakref import WeakSet
 
 import mujoco
 import numpy as np
 
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.mechanism import rigid
-from mjcont.mechanism.derivatives import Derivatives
-from mjcont.mechanism.evaluation import Evaluator
+from mjcont.mechanism.core import Core, copy_model, evaluation_copy, is_constrained, owned_copy, simulation_copy
+from mjcont.mechanism.declarations import Declaration
 from mjcont.mechanism.geometry import Geometry, refuse_overlap
-from mjcont.mechanism.observables import model_observables
-from mjcont.mechanism.parameters import Declaration, collect_parameters, declared_parameter
-from mjcont.mechanism.paths import bush_names
-from mjcont.mechanism.readings import Observed, Readings
+from mjcont.mechanism.observables import Observed, model_observables
+from mjcont.mechanism.parameters import collect_parameters, declared_parameter
+from mjcont.mechanism.summary import describe
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.models import features, loading
+from mjcont.models.actuators import bush_names
 from mjcont.models.mjcf import exact_text
+from mjcont.models.states import checked_state, coordinates_are_flat, keyframes, model_name, state_labels, state_scale
 from mjcont.numerics.equations.differences import Stencil
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Values
 from mjcont.results.quantities import Parameter
-
-_OWNED = ("_loaded", "_model", "_writer", "_readings", "_evaluator", "nonsmooth", "_derivatives")
 
 
 class Mechanism(Observed):
@@ -66,6 +64,7 @@ class Mechanism(Observed):
     """
 
     second_order = True
+    _core: Core
 
     def __init__(
         self,
@@ -77,35 +76,21 @@ class Mechanism(Observed):
     ) -> None:
         features.refuse_unsupported(model)
         self.notes = (*notes, *features.friction_notes(model, friction), *features.activation_notes(model))
-        model = loading.owned_copy(model)
+        model = owned_copy(model)
         self.mjcf = mjcf
-        self.name = loading.model_name(model)
+        self.name = model_name(model)
         self.nq, self.n = model.nq, model.nv
         self.qpos0 = model.qpos0.copy()
-        self._flat = loading.coordinates_are_flat(model)
-        self.state_scale = loading.state_scale(model)
-        self._geometry = geometry or Geometry(None)
-        self.parameters = collect_parameters(loading.evaluation_copy(loading.copy_model(model)), self._geometry)
+        self._flat = coordinates_are_flat(model)
+        self.state_scale = state_scale(model)
+        geometry = geometry or Geometry(None)
+        self.parameters = collect_parameters(evaluation_copy(copy_model(model)), geometry)
         self.observables = model_observables(model)
         self.declared: dict[str, Any] = {}
-        self.keyframes = loading.keyframes(model)
-        self.constrained, self._passive = loading.is_constrained(model), features.passive(model)
+        self.keyframes = keyframes(model)
+        self.constrained, self._passive = is_constrained(model), features.passive(model)
         self._held: tuple[str, ...] = ()
-        self._kin: WeakSet[Mechanism] = WeakSet((self,))  # this and its copies with held modes: one set of models
-        self._own(self._geometry.with_layout(model, self.parameters))
-
-    def _own(self, model: mujoco.MjModel, evaluations: int = 0) -> None:
-        """Take a model: one copy for residuals, one for observables, one as loaded."""
-        self._loaded, self._model = loading.copy_model(model), loading.evaluation_copy(model)
-        self._writer = self.writer(self._model)
-        self._readings = Readings(model, self.parameters, self.writer(model), self.constrained)
-        self._evaluator = Evaluator(self._model, self._writer, self.constrained, evaluations)
-        self.nonsmooth = self._evaluator.nonsmooth
-        self._derivatives = Derivatives(
-            self._evaluator, self._writer, self.parameters, self.state_scale, self.retract_each
-        )
-        for other in self._kin:
-            other.__dict__.update({name: self.__dict__[name] for name in _OWNED})
+        self._core = Core(model, self.parameters, geometry, self.constrained, self.state_scale, self.retract_each)
 
     # -- making one ----------------------------------------------------------------------------------------
 
@@ -121,8 +106,9 @@ class Mechanism(Observed):
         ModelError
             If the file does not exist, MuJoCo rejects it, or the model has a feature that cannot be treated.
         """
-        model, text, notes, geometry = loading.load(source)
-        return cls(model, text, friction, notes, geometry)
+        loaded = loading.load(source)
+        geometry = Geometry(loaded.spec, loaded.folder)
+        return cls(loaded.model, loaded.text, friction, loaded.notes, geometry)
 
     @classmethod
     def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
@@ -162,11 +148,11 @@ class Mechanism(Observed):
         if name in self.parameters:
             raise ParameterError(f"parameter '{name}' is declared twice")
         given = Declaration(name, unit, bounds, tuple(paths), function, value)
-        parameter = declared_parameter(self._model_as_loaded(), self._geometry, given)
+        parameter = declared_parameter(self._model_as_loaded(), self._core.geometry, given)
         self.parameters[name] = parameter
         self.declared[name] = given.record(parameter)
-        if parameter.kind == "spec" and self._loaded.body_simple.any():
-            self._own(self._geometry.with_layout(self._loaded, self.parameters), self.evaluations)
+        if parameter.kind == "spec":
+            self._core.relayout()
         return parameter
 
     def parameter(self, name: str) -> Parameter:
@@ -193,68 +179,73 @@ class Mechanism(Observed):
         merged = {name: p.value for name, p in self.parameters.items()}
         merged.update({name: float(v) for name, v in given.items()})
         if any(self.parameters[name].kind == "spec" for name in given):
-            self._geometry.model(self.parameters, merged)
+            self._core.geometry.model(self.parameters, merged)
         return merged
 
     def _model_as_loaded(self) -> mujoco.MjModel:
-        self._writer.write(self.parameters, self.values())
-        return self._model
+        self._core.writer.write(self.parameters, self.values())
+        return self._core.model
 
     # -- residual and derivatives ----------------------------------------------------------------------------
 
     def residual(self, x: Array, values: Values) -> Array:
         """Return the generalised forces M qacc at rest, (nv,), in N and N m."""
-        self._writer.write(self.parameters, values)
-        return self._evaluator.forces(x[None])[0].copy()
+        self._core.writer.write(self.parameters, values)
+        return self._core.evaluator.forces(x[None])[0].copy()
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return the residual at x moved by each row of `steps` (m, nv), shape (m, nv)."""
-        self._writer.write(self.parameters, values)
-        return self._evaluator.forces(self.retract_each(x, steps)).copy()
+        self._core.writer.write(self.parameters, values)
+        return self._core.evaluator.forces(self.retract_each(x, steps)).copy()
 
     def side_by_side(self, name: str) -> bool:
         """Whether states that differ in a parameter are evaluated in one batch: the forces are smooth, it a control."""
-        return not self._held and self._derivatives.side_by_side(name)
+        return not self._held and self._core.derivatives.side_by_side(name)
 
     def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
         """Return the residual at states (m, nq), a parameter having a value of its own in each (m,), shape (m, nv)."""
-        return self._derivatives.along(states, values, name, column)
+        return self._core.derivatives.along(states, values, name, column)
 
     def linearize_along(
         self, states: Array, values: Values, name: str, column: Array
     ) -> tuple[Array, Array, Array] | None:
         """Return the residual and its derivatives in the state and in a parameter; arguments as `residuals_along`."""
-        return None if self._held else self._derivatives.linearize_along(states, values, name, column)
+        return None if self._held else self._core.derivatives.linearize_along(states, values, name, column)
 
     def acceleration(self, qpos: Array, qvel: Array, values: Values | None = None) -> Array:
         """Return qacc at a state of motion, (nv,), in m/s^2 and rad/s^2."""
-        self._writer.write(self.parameters, self.values(values))
-        return self._evaluator.accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
+        self._core.writer.write(self.parameters, self.values(values))
+        return self._core.evaluator.accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
 
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
     ) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
         refuse_overlap(self.parameters, values, tuple(wrt))
-        found = self._derivatives.linearize(x, values, wrt, accurate, spans)
+        found = self._core.derivatives.linearize(x, values, wrt, accurate, spans)
         if not self._held:
             return found
-        mass = self._evaluator.mass(x)
+        mass = self._core.evaluator.mass(x)
         held = rigid.rate(found.jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
         return Linearization(found.f, found.jac - held, found.par)
 
     def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""
-        return self._derivatives.rule(name, value, span)
+        return self._core.derivatives.rule(name, value, span)
 
     def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
         """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
-        self._writer.write(self.parameters, values)
-        mass, damping = self._evaluator.mass(x), self._evaluator.damping(x, self.state_scale)
+        self._core.writer.write(self.parameters, values)
+        mass, damping = self._core.evaluator.mass(x), self._core.evaluator.damping(x, self.state_scale)
         if self._held:
             # critical damping: a held mode decays and can never look unstable or marginal
             damping = damping + 2.0 * rigid.rate(jac, mass) * rigid.holding(mass, self._held_directions(x))
         return Pencil(mass, damping, -jac)
+
+    @property
+    def nonsmooth(self) -> bool:
+        """Whether the forces are smooth in pieces only."""
+        return self._core.nonsmooth
 
     @property
     def passive(self) -> bool:
@@ -267,15 +258,16 @@ class Mechanism(Observed):
         first = values[0]
         if self._held or any(v[n] != first[n] for v in values for n in first.keys() - loads):
             return [self.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]
-        self._writer.write(self.parameters, first)
-        evaluator, scale = self._evaluator, self.state_scale
+        self._core.writer.write(self.parameters, first)
+        evaluator, scale = self._core.evaluator, self.state_scale
         return [Pencil(evaluator.mass(x), evaluator.damping(x, scale), -j) for x, j in zip(states, jacs, strict=True)]
 
     def first_order(self, x: Array, values: Values, steps: Array) -> Array:
         """Return (v, qacc) at steps (m, 2 nv) of position and velocity around rest at x, shape (m, 2 nv)."""
-        self._writer.write(self.parameters, values)
+        self._core.writer.write(self.parameters, values)
         velocity = steps[:, self.n :]
-        return np.hstack([velocity, self._evaluator.accelerations(self.retract_each(x, steps[:, : self.n]), velocity)])
+        moved = self.retract_each(x, steps[:, : self.n])
+        return np.hstack([velocity, self._core.evaluator.accelerations(moved, velocity)])
 
     def periods(self, x: Array, values: Values) -> Array:
         """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
@@ -285,7 +277,7 @@ class Mechanism(Observed):
 
     def rigid_modes(self, x: Array, values: Values, among: Sequence[str] | None = None) -> tuple[str, ...]:
         """Return the names of the rigid-body motions that no force opposes near a state, of all or `among` some."""
-        return rigid.zero_modes(self.holding(()), self._model, self._evaluator.position, x, values, among)
+        return rigid.zero_modes(self.holding(()), self._core.model, self._core.evaluator.position, x, values, among)
 
     @property
     def held(self) -> tuple[str, ...]:
@@ -294,18 +286,17 @@ class Mechanism(Observed):
 
     def rigid_directions(self, x: Array) -> dict[str, Array]:
         """Return the tangent vectors (nv,) along the held rigid-body modes, by name."""
-        return rigid.directions(self._model, self._evaluator.position(x), self._held)
+        return rigid.directions(self._core.model, self._core.evaluator.position(x), self._held)
 
     def holding(self, modes: Sequence[str]) -> Mechanism:
         """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""
         held = copy.copy(self)
         held._held = tuple(modes)
-        self._kin.add(held)
         return held
 
     def admissible(self, x: Array, step: Array) -> Array:
         """Return a tangent step without its part along held rigid-body modes, which nothing else would correct."""
-        return rigid.without_modes(step, self._evaluator.mass(x), self._held_directions(x)) if self._held else step
+        return rigid.without_modes(step, self._core.evaluator.mass(x), self._held_directions(x)) if self._held else step
 
     def _held_directions(self, x: Array) -> Array:
         found = list(self.rigid_directions(x).values())
@@ -318,7 +309,7 @@ class Mechanism(Observed):
         if self._flat:
             return x + step
         moved = x.copy()
-        mujoco.mj_integratePos(self._model, moved, step, 1.0)
+        mujoco.mj_integratePos(self._core.model, moved, step, 1.0)
         return moved
 
     def difference(self, x1: Array, x0: Array) -> Array:
@@ -326,7 +317,7 @@ class Mechanism(Observed):
         if self._flat:
             return x1 - x0
         step = np.empty(self.n)
-        mujoco.mj_differentiatePos(self._model, step, 1.0, x0, x1)
+        mujoco.mj_differentiatePos(self._core.model, step, 1.0, x0, x1)
         return step
 
     def difference_each(self, ends: Array, starts: Array) -> Array:
@@ -345,28 +336,28 @@ class Mechanism(Observed):
 
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""
-        self._writer.write(self.parameters, values)
-        return self._evaluator.active(x)
+        self._core.writer.write(self.parameters, values)
+        return self._core.evaluator.active(x)
 
     @property
     def failure(self) -> str:
         """Why the model does not compile at the values evaluated last; empty where it does."""
-        return self._writer.failure or self._derivatives.failure
+        return self._core.writer.failure or self._core.derivatives.failure
 
     @property
     def evaluations(self) -> int:
         """Forward evaluations so far; every row of a batch counts as one."""
-        return self._evaluator.count
+        return self._core.evaluator.count
 
     # -- states ----------------------------------------------------------------------------------------------
 
     def simulation_model(self) -> mujoco.MjModel:
         """Return a copy of the model as loaded, for time histories; diverging motion is not reset silently."""
-        return loading.simulation_copy(self._loaded)
+        return simulation_copy(self._core.loaded)
 
     def writer(self, model: mujoco.MjModel) -> FieldWriter:
         """Return what writes parameter values into a copy of the model."""
-        return FieldWriter(model, self.parameters, self._geometry)
+        return self._core.writer_of(model)
 
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return a start: the state given, or a keyframe's, or qpos0.
@@ -376,21 +367,29 @@ class Mechanism(Observed):
         NameLookupError, ParameterError
             If there is no such keyframe, or `state` has the wrong shape.
         """
-        return loading.start_state(self, keyframe, state)
+        if state is not None:
+            return checked_state(self._core.model, state)
+        if keyframe is None:
+            return np.array(self.qpos0)
+        if keyframe not in self.keyframes:
+            raise unknown_name("keyframe", keyframe, self.keyframes)
+        return np.array(self.keyframes[keyframe])
 
     @property
     def state_labels(self) -> list[tuple[str, str]]:
         """Name and unit of each entry of qpos."""
-        return loading.state_labels(self._model)
+        return state_labels(self._core.model)
 
     @property
     def bushes(self) -> list[str]:
         """Names of the bush actuators."""
-        return bush_names(self._model)
+        return bush_names(self._core.model)
 
     def __str__(self) -> str:
         """List what can be continued, what can be read, and where to start."""
-        return loading.describe(self)
+        values = self.measure(self.qpos0[None], self.values())[0]
+        readings = zip(self.observables.values(), values.tolist(), strict=True)
+        return describe(self.simulation_model(), self.constrained, self.parameters, readings, self.notes)
 
     def __repr__(self) -> str:
         """Return a one-line description."""

@@ -18,7 +18,8 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import ParameterError, unknown_name
-from mjcont.mechanism.inputs import INPUT_FIELDS, actuator_name, integrator, loaded_inputs
+from mjcont.mechanism.inputs import INPUT_FIELDS, loaded_inputs
+from mjcont.models.actuators import actuator_name, integrator, is_bush
 from mjcont.models.equalities import stiffness_targets
 from mjcont.results.quantities import Target
 
@@ -44,17 +45,6 @@ _RENAMED = {
 }
 _MOCAP_WIDTH = {"pos": 3, "quat": 4}
 _DERIVED_CONSTANTS = frozenset(mujoco.MjModel._setconst_inputs)
-
-
-def is_bush(model: mujoco.MjModel, actuator: int) -> bool:
-    """Whether an actuator is a passive bush element: prefix `bush_` and no gain."""
-    name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, actuator) or ""
-    return name.startswith("bush_") and not model.actuator_gainprm[actuator].any()
-
-
-def bush_names(model: mujoco.MjModel) -> list[str]:
-    """Return the names of the bush actuators."""
-    return [actuator_name(model, i) for i in range(model.nactuator) if is_bush(model, i)]
 
 
 def controls(model: mujoco.MjModel) -> dict[str, tuple[str, int]]:

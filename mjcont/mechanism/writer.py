@@ -10,9 +10,10 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import ParameterError, unknown_name
+from mjcont.mechanism.declarations import setting
 from mjcont.mechanism.geometry import Geometry, NotCompiled, copy_geometry
 from mjcont.mechanism.inputs import INPUT_FIELDS, DataInputs
-from mjcont.mechanism.parameters import GRAVITY_ANGLE, LOAD_FACTOR, setting
+from mjcont.mechanism.parameters import GRAVITY_ANGLE, LOAD_FACTOR
 from mjcont.mechanism.paths import field_array
 from mjcont.results.quantities import Parameter
 

@@ -33,6 +33,7 @@ from mjcont.models.bushsections import (
 from mjcont.models.equalities import equality_name, springs_of
 from mjcont.models.impedance import impedance
 from mjcont.models.mjcf import Document, Element, elements, exact_text, numbers
+from mjcont.models.states import keyframes
 from mjcont.models.topology import Closure, Frame, constraint_closures, gap, plane_normal
 
 FRAMES = ("world", "parent")
@@ -223,7 +224,7 @@ def _default_damping(model: mujoco.MjModel, pins: list[int], closures: list[Clos
 def _warn_if_open(model: mujoco.MjModel, closure: Closure) -> None:
     """Say where a closure is open: its bush will be loaded there."""
     small = 1e-6 * max(float(model.stat.extent), 1e-3)
-    poses = {"qpos0": None, **{f"keyframe '{name}'": q for name, q in loading.keyframes(model).items()}}
+    poses = {"qpos0": None, **{f"keyframe '{name}'": q for name, q in keyframes(model).items()}}
     found = [
         f"by {gap(model, closure, q):.3g} m at {name}" for name, q in poses.items() if gap(model, closure, q) > small
     ]

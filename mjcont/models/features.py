@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import ModelError, ModelWarning, ParameterError
-from mjcont.mechanism.inputs import actuator_name, follower, integrator
+from mjcont.models.actuators import actuator_name, follower, integrator
 from mjcont.results.quantities import FRICTION
 
 _DISABLE = mujoco.mjtDisableBit

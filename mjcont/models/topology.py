@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from mjcont.mechanism.paths import is_bush
+from mjcont.models.actuators import is_bush
 from mjcont.models.equalities import KINDS, equality_name
 
 _JOINT, _EQ, _OBJ = mujoco.mjtJoint, mujoco.mjtEq, mujoco.mjtObj

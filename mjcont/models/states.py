@@ -1,0 +1,67 @@
+"""The states of a model: names and units of their entries, typical sizes, keyframes."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from mjcont.errors import ParameterError
+
+_JOINT = mujoco.mjtJoint
+
+
+def model_name(model: mujoco.MjModel) -> str:
+    """Return the name in the MJCF's root element."""
+    return bytes(model.names[: model.names.index(b"\0")]).decode() or "model"
+
+
+def coordinates_are_flat(model: mujoco.MjModel) -> bool:
+    """Whether qpos is a vector space: slides and hinges only."""
+    return bool(np.all(np.isin(model.jnt_type, [_JOINT.mjJNT_SLIDE, _JOINT.mjJNT_HINGE])))
+
+
+def state_scale(model: mujoco.MjModel) -> np.ndarray:
+    """Return the typical size of each tangent coordinate: 1 rad, or the model's size in metres, (nv,)."""
+    size = float(model.stat.extent)
+    if not math.isfinite(size) or size <= 0:
+        size = 1.0
+    scale = np.ones(model.nv)
+    for j in range(model.njnt):
+        start = model.jnt_dofadr[j]
+        if model.jnt_type[j] == _JOINT.mjJNT_SLIDE:
+            scale[start] = size
+        elif model.jnt_type[j] == _JOINT.mjJNT_FREE:
+            scale[start : start + 3] = size
+    return scale
+
+
+def keyframes(model: mujoco.MjModel) -> dict[str, np.ndarray]:
+    """Return the positions of the model's keyframes by name."""
+    names = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_KEY, k) or f"key{k}" for k in range(model.nkey)]
+    return {name: model.key_qpos[k].copy() for k, name in enumerate(names)}
+
+
+def checked_state(model: mujoco.MjModel, state: Any) -> np.ndarray:
+    """Return a state that a user gives as an array, (nq,)."""
+    x = np.array(state, dtype=float)
+    if x.shape != (model.nq,):
+        raise ParameterError(f"state must have shape ({model.nq},) for model '{model_name(model)}', got {x.shape}")
+    return x
+
+
+def state_labels(model: mujoco.MjModel) -> list[tuple[str, str]]:
+    """Return name and unit of each entry of qpos."""
+    parts = {
+        _JOINT.mjJNT_SLIDE: [("", "m")],
+        _JOINT.mjJNT_HINGE: [("", "rad")],
+        _JOINT.mjJNT_BALL: [(f".q{i}", "") for i in range(4)],
+        _JOINT.mjJNT_FREE: [(f".{c}", "m") for c in "xyz"] + [(f".q{i}", "") for i in range(4)],
+    }
+    labels = []
+    for j in range(model.njnt):
+        name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, j) or f"joint{j}"
+        labels += [(name + suffix, unit) for suffix, unit in parts[_JOINT(model.jnt_type[j])]]
+    return labels
