@@ -30,30 +30,37 @@ from mjcont.errors import (
 
 if TYPE_CHECKING:
     from mjcont.curves.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
-    from mjcont.curves.diagram import Diagram, bifurcation_diagram, switch_branches
+    from mjcont.curves.diagram import bifurcation_diagram, switch_branches
     from mjcont.curves.extension import extend
     from mjcont.curves.loci import continue_special
     from mjcont.curves.search import find_equilibria
-    from mjcont.curves.stiffness import StiffnessStudy, stiffness_study
+    from mjcont.curves.stiffness import stiffness_study
     from mjcont.drawing.animation import animate
     from mjcont.drawing.plotting import plot
     from mjcont.drawing.poses import add_poses, draw, draw_poses
-    from mjcont.influence.critical import FollowedPoint, follow_point
-    from mjcont.influence.extremes import WorstCase, worst_case
-    from mjcont.influence.maps import SpecialMap, special_map
-    from mjcont.influence.sensitivities import Sensitivities, sensitivities
+    from mjcont.influence.critical import follow_point
+    from mjcont.influence.extremes import worst_case
+    from mjcont.influence.maps import special_map
+    from mjcont.influence.sensitivities import sensitivities
     from mjcont.mechanism.mechanism import Mechanism
     from mjcont.models.bushes import add_bushes, bushed_xml, set_constraint_stiffness
     from mjcont.models.equalities import ConstraintStiffness, constraint_stiffness
-    from mjcont.motion.certificates import Certificate, verify_stability
-    from mjcont.motion.histories import History, simulate, simulate_many
+    from mjcont.motion.certificates import verify_stability
+    from mjcont.motion.histories import simulate, simulate_many
     from mjcont.motion.loadpaths import load_path
-    from mjcont.motion.margins import Barrier, BarrierCurve, BarrierMap, barrier_along, barrier_map, energy_barrier
+    from mjcont.motion.margins import barrier_along, barrier_map, energy_barrier
     from mjcont.numerics.equations.settings import Settings
-    from mjcont.results.branch import Branch, Column, Point, SpecialPoint
-    from mjcont.results.files import load
+    from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
+    from mjcont.results.branch import Branch, Diagram
+    from mjcont.results.certificates import Certificate
+    from mjcont.results.formats import load
+    from mjcont.results.histories import History
     from mjcont.results.loadpaths import Jump, LoadPath, Segment
+    from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
+    from mjcont.results.points import Column, Point, SpecialPoint
     from mjcont.results.search import Equilibria, Equilibrium
+    from mjcont.results.sensitivities import Sensitivities
+    from mjcont.results.stiffness import StiffnessStudy
     from mjcont.results.sweeps import SweepTable
     from mjcont.studies.study import load_study, run_study
     from mjcont.sweeps.designs import Spread
@@ -61,37 +68,42 @@ if TYPE_CHECKING:
     from mjcont.vectorfield import VectorField
 
 _HOMES = {
-    "mjcont.influence.sensitivities": ("Sensitivities", "sensitivities"),
-    "mjcont.results.branch": ("Branch", "Column", "Point", "SpecialPoint"),
-    "mjcont.models.bushes": ("add_bushes", "bushed_xml", "set_constraint_stiffness"),
-    "mjcont.motion.certificates": ("Certificate", "verify_stability"),
     "mjcont.curves.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
-    "mjcont.influence.critical": ("FollowedPoint", "follow_point"),
-    "mjcont.sweeps.designs": ("Spread",),
-    "mjcont.curves.diagram": ("Diagram", "bifurcation_diagram", "switch_branches"),
-    "mjcont.drawing.animation": ("animate",),
-    "mjcont.drawing.poses": ("add_poses", "draw", "draw_poses"),
-    "mjcont.models.equalities": ("ConstraintStiffness", "constraint_stiffness"),
+    "mjcont.curves.diagram": ("bifurcation_diagram", "switch_branches"),
     "mjcont.curves.extension": ("extend",),
-    "mjcont.influence.extremes": ("WorstCase", "worst_case"),
-    "mjcont.motion.loadpaths": ("load_path",),
     "mjcont.curves.loci": ("continue_special",),
-    "mjcont.influence.maps": ("SpecialMap", "special_map"),
-    "mjcont.motion.margins": (
-        "Barrier", "BarrierCurve", "BarrierMap", "barrier_along", "barrier_map", "energy_barrier",
-    ),
-    "mjcont.mechanism.mechanism": ("Mechanism",),
-    "mjcont.numerics.equations.settings": ("Settings",),
-    "mjcont.results.loadpaths": ("Jump", "LoadPath", "Segment"),
-    "mjcont.drawing.plotting": ("plot",),
-    "mjcont.results.search": ("Equilibria", "Equilibrium"),
-    "mjcont.motion.histories": ("History", "simulate", "simulate_many"),
     "mjcont.curves.search": ("find_equilibria",),
-    "mjcont.curves.stiffness": ("StiffnessStudy", "stiffness_study"),
-    "mjcont.results.files": ("load",),
-    "mjcont.studies.study": ("load_study", "run_study"),
-    "mjcont.sweeps.sweeps": ("sweep",),
+    "mjcont.curves.stiffness": ("stiffness_study",),
+    "mjcont.drawing.animation": ("animate",),
+    "mjcont.drawing.plotting": ("plot",),
+    "mjcont.drawing.poses": ("add_poses", "draw", "draw_poses"),
+    "mjcont.influence.critical": ("follow_point",),
+    "mjcont.influence.extremes": ("worst_case",),
+    "mjcont.influence.maps": ("special_map",),
+    "mjcont.influence.sensitivities": ("sensitivities",),
+    "mjcont.mechanism.mechanism": ("Mechanism",),
+    "mjcont.models.bushes": ("add_bushes", "bushed_xml", "set_constraint_stiffness"),
+    "mjcont.models.equalities": ("ConstraintStiffness", "constraint_stiffness"),
+    "mjcont.motion.certificates": ("verify_stability",),
+    "mjcont.motion.histories": ("simulate", "simulate_many"),
+    "mjcont.motion.loadpaths": ("load_path",),
+    "mjcont.motion.margins": ("barrier_along", "barrier_map", "energy_barrier"),
+    "mjcont.numerics.equations.settings": ("Settings",),
+    "mjcont.results.barriers": ("Barrier", "BarrierCurve", "BarrierMap"),
+    "mjcont.results.branch": ("Branch", "Diagram"),
+    "mjcont.results.certificates": ("Certificate",),
+    "mjcont.results.formats": ("load",),
+    "mjcont.results.histories": ("History",),
+    "mjcont.results.loadpaths": ("Jump", "LoadPath", "Segment"),
+    "mjcont.results.maps": ("FollowedPoint", "SpecialMap", "WorstCase"),
+    "mjcont.results.points": ("Column", "Point", "SpecialPoint"),
+    "mjcont.results.search": ("Equilibria", "Equilibrium"),
+    "mjcont.results.sensitivities": ("Sensitivities",),
+    "mjcont.results.stiffness": ("StiffnessStudy",),
     "mjcont.results.sweeps": ("SweepTable",),
+    "mjcont.studies.study": ("load_study", "run_study"),
+    "mjcont.sweeps.designs": ("Spread",),
+    "mjcont.sweeps.sweeps": ("sweep",),
     "mjcont.vectorfield": ("VectorField",),
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}

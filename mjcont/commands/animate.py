@@ -28,7 +28,7 @@ def run(args: argparse.Namespace, say: Callable[[str], None]) -> int:
     """Write the animation and say where it is."""
     from mjcont.drawing.animation import animate
     from mjcont.errors import MjcontError
-    from mjcont.results.files import load
+    from mjcont.results.formats import load
 
     out = Path(args.out) if args.out else Path(args.file).with_suffix(".gif")
     live = sys.stderr is not None and sys.stderr.isatty()

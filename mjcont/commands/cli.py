@@ -19,7 +19,8 @@ from mjcont.errors import MjcontError, ResultFileError
 from mjcont.results.quantities import FRICTION
 
 if TYPE_CHECKING:
-    from mjcont.results.branch import Branch, Point
+    from mjcont.results.branch import Branch
+    from mjcont.results.points import Point
 
 OK, FAILED, USER_ERROR, INTERRUPTED = 0, 1, 2, 130
 _RESULT_SUFFIXES = (".h5", ".hdf5")
@@ -229,7 +230,7 @@ def _naming(file: str) -> Iterator[None]:
 
 
 def _load(path: str) -> Any:
-    from mjcont.results.files import load
+    from mjcont.results.formats import load
 
     return load(path)
 
@@ -271,7 +272,7 @@ def _point_of_model(args: argparse.Namespace) -> Point | None:
 
 def _point_of_result(args: argparse.Namespace) -> Point:
     """Return the point of a stored branch that --label or --at asks for, or its start."""
-    from mjcont.results.branch import show
+    from mjcont.results.points import show
 
     if args.keyframe:
         raise MjcontError("--keyframe goes with a model; for a result file use --label or --at")

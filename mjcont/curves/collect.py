@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from functools import cache
-from importlib import metadata
 from typing import Any
 
 import numpy as np
@@ -23,8 +20,10 @@ from mjcont.numerics.spectra.stability import local_spectrum
 from mjcont.numerics.step.arclength import CurvePoint, first_point, turned_back
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace, Walker, trace
-from mjcont.results.branch import Branch, Column, Point, SpecialPoint, show
-from mjcont.results.files import special_from_row
+from mjcont.results.branch import Branch
+from mjcont.results.points import Column, Point, SpecialPoint, show, special_from_row
+from mjcont.results.provenance import provenance
+from mjcont.results.quantities import units
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,12 +45,6 @@ def make_point(problem: Any, x: Array, values: Values) -> Point:
     measured = problem.measure(x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
     return Point(dict(values), observables, x.copy(), s.eigenvalues, s.stability, s.n_unstable, problem, units(problem))
-
-
-def units(problem: Any) -> dict[str, str]:
-    """Return the units of all parameters and observables."""
-    found = {p.name: p.unit for p in problem.parameters.values()}
-    return found | {o.name: o.unit for o in problem.observables.values()}
 
 
 def _found(system: System, item: Located) -> Found:
@@ -326,20 +319,3 @@ def _describe_start(branch: Branch, origin: str) -> str:
     return f"{shown}; {branch.stability[i]} ({origin})"
 
 
-@cache
-def _versions() -> tuple[tuple[str, str], ...]:
-    """Return the versions of what results depend on."""
-    found = [(name, metadata.version(name)) for name in ("mujoco", "numpy", "scipy")]
-    try:
-        return (*found, ("mjcont", metadata.version("mjcont")))
-    except metadata.PackageNotFoundError:
-        return (*found, ("mjcont", "not installed"))
-
-
-def provenance(problem: Any) -> dict[str, str]:
-    """Return versions and the model's hash."""
-    versions = dict(_versions())
-    mjcf = getattr(problem, "mjcf", None)
-    if mjcf is not None:
-        versions["model_sha256"] = hashlib.sha256(mjcf.encode()).hexdigest()
-    return versions

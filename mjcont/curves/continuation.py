@@ -20,7 +20,8 @@ from mjcont.numerics.points.events import Located, ScalarZero
 from mjcont.numerics.points.on_equilibria import square_system
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.trace import Walker
-from mjcont.results.branch import Branch, Point, show
+from mjcont.results.branch import Branch
+from mjcont.results.points import Point, show
 
 
 def make_settings(options: Mapping[str, Any]) -> Settings:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -25,42 +24,11 @@ from mjcont.numerics.points.events import Located
 from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace, trace
-from mjcont.results.branch import Branch, Point, SpecialPoint
+from mjcont.results.branch import Branch, Diagram
+from mjcont.results.points import Point, SpecialPoint
 
 _OFFSET = 1e-2
 _SAME = 1e-5
-
-
-@dataclass(frozen=True, slots=True)
-class Diagram:
-    """The branches of a bifurcation diagram, in the order in which they were found."""
-
-    branches: Sequence[Branch]
-    notes: Sequence[str] = ()
-
-    def __len__(self) -> int:
-        """Return the number of branches."""
-        return len(self.branches)
-
-    def __iter__(self) -> Iterator[Branch]:
-        """Iterate over the branches."""
-        return iter(self.branches)
-
-    def __getitem__(self, index: int) -> Branch:
-        """Return a branch."""
-        return self.branches[index]
-
-    @property
-    def special_points(self) -> list[SpecialPoint]:
-        """Return the special points of all branches; a branch point stands on each of its branches."""
-        return [p for b in self.branches for p in b.special_points]
-
-    def __str__(self) -> str:
-        """Return the summaries of all branches."""
-        lines = [f"{len(self.branches)} branches"]
-        for i, b in enumerate(self.branches, 1):
-            lines += [f"[{i}] {b}"]
-        return "\n".join([*lines, *self.notes])
 
 
 def switch_branches(

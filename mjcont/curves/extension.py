@@ -23,7 +23,8 @@ from mjcont.numerics.points.on_loci import conditions_of, unfolding_stop
 from mjcont.numerics.spectra.spectrum import spectrum
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.trace import Trace, Walker, trace
-from mjcont.results.branch import Branch, SpecialPoint
+from mjcont.results.branch import Branch
+from mjcont.results.points import SpecialPoint
 
 _ENDS = ("first", "last")
 _SAME = 1e-4

@@ -16,7 +16,8 @@ from mjcont.numerics.points.events import Detector
 from mjcont.numerics.points.on_equilibria import zero_detector
 from mjcont.numerics.points.on_loci import conditions_of, fold_locus_detectors, hopf_locus_detectors, unfolding_stop
 from mjcont.numerics.walk.trace import Walker
-from mjcont.results.branch import KIND_NAMES, Branch, SpecialPoint, show
+from mjcont.results.branch import Branch
+from mjcont.results.points import KIND_NAMES, SpecialPoint, show
 
 CONTINUABLE = ("LP", "HB", "BP", "CP", "BT", "ZH")
 _NAMES = {"LP": "fold", "HB": "Hopf", "BP": "branch-point", "CP": "cusp", "BT": "Bogdanov-Takens", "ZH": "zero-Hopf"}

@@ -25,7 +25,7 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.search.coordinates import Coordinates, layout, with_turns
 from mjcont.numerics.search.deflation import Deflation, newton
 from mjcont.numerics.search.multistart import Many, Runs, levenberg_marquardt, spectral_step
-from mjcont.results.branch import Point
+from mjcont.results.points import Point
 from mjcont.results.search import Account, Equilibria, gather, same_spectrum
 
 Region = Mapping[str, tuple[float, float]] | Callable[[Point], bool]

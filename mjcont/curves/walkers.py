@@ -22,7 +22,7 @@ from mjcont.numerics.spectra.stability import negative_stiffness
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.walk.longsteps import LongSteps
 from mjcont.numerics.walk.trace import Walker
-from mjcont.results.branch import Point
+from mjcont.results.points import Point
 
 
 def point_stop(

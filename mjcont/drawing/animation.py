@@ -23,9 +23,9 @@ from mjcont.drawing.shapes import Scene, plane_axes
 from mjcont.drawing.sketch import padded, render
 from mjcont.drawing.viewer import Stand
 from mjcont.errors import MjcontError, unknown_name
-from mjcont.motion.histories import History
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.branch import Branch
+from mjcont.results.histories import History
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

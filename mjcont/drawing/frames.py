@@ -14,10 +14,11 @@ import numpy as np
 
 from mjcont.errors import MjcontError
 from mjcont.mechanism.mechanism import Mechanism
-from mjcont.motion.histories import History
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.branch import KIND_NAMES, Branch, show
+from mjcont.results.branch import Branch
+from mjcont.results.histories import History
 from mjcont.results.loadpaths import Jump, LoadPath
+from mjcont.results.points import KIND_NAMES, show
 
 Result = History | Branch | LoadPath
 # how far a jump counts at least, in parts of the diagram: shorter ones would pass unseen

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont.curves.collect import units as unit_of
 from mjcont.numerics.equations.problem import Array
+from mjcont.results.quantities import units as unit_of
 
 if TYPE_CHECKING:
-    from mjcont.influence.maps import SpecialMap
+    from mjcont.results.maps import SpecialMap
 
 
 def scaled(values: Array, unit: str) -> Array:

@@ -11,7 +11,7 @@ from mjcont.numerics.equations.problem import Array
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from mjcont.motion.margins import BarrierCurve, BarrierMap
+    from mjcont.results.barriers import BarrierCurve, BarrierMap
     from mjcont.results.loadpaths import LoadPath
 
 _SHORTEST = 0.04

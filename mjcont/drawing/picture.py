@@ -18,7 +18,7 @@ from mjcont.errors import MjcontError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.actuators import is_bush
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.branch import Point
+from mjcont.results.points import Point
 
 Pose = Point | Array | str | None
 _JOINT, _TRANSMISSION, _WRAP = mujoco.mjtJoint, mujoco.mjtTrn, mujoco.mjtWrap

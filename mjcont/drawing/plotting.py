@@ -15,9 +15,10 @@ import numpy as np
 from mjcont.drawing.pathplots import axis_label, draw_path
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.branch import Branch, SpecialPoint, show
+from mjcont.results.branch import Branch
 from mjcont.results.files import write_atomically
 from mjcont.results.loadpaths import LoadPath
+from mjcont.results.points import SpecialPoint, show
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -14,7 +14,8 @@ from mjcont.drawing.sketch import padded, render
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.branch import Branch, Point
+from mjcont.results.branch import Branch
+from mjcont.results.points import Point
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

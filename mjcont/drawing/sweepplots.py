@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mjcont.drawing.mapplots import axis_label, scaled
-from mjcont.results.branch import Column
+from mjcont.results.points import Column
 
 if TYPE_CHECKING:
     from mjcont.results.sweeps import SweepTable

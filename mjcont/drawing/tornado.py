@@ -2,98 +2,19 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mjcont.errors import ParameterError
-from mjcont.results.branch import KIND_NAMES, SpecialPoint, show
+from mjcont.results.points import show
 
 if TYPE_CHECKING:
-    from mjcont.influence.sensitivities import Sensitivities
+    from mjcont.results.sensitivities import Sensitivities
 
 _SEEN = 1e-4  # of the widest bar
 _MORE, _LESS = "#1b4f8a", "#c4541a"
-
-
-def table(s: Sensitivities) -> str:
-    """Return the sensitivities as text, the most influential parameter first."""
-    heads = ["parameter", "value", "tolerance"]
-    for name in s.quantities:
-        heads += [f"d {name}", "elasticity", "change"]
-    rows = [heads]
-    for name in s.ordered():
-        i, unit = s.parameters.index(name), s.units[name]
-        row = [name, show(s.values[name], unit, 6), "+-" + show(s.tolerances[name], unit, 3)]
-        for j, quantity in enumerate(s.quantities):
-            row += [_slope(s, i, j), _ratio(s.elasticities[i, j]), _signed(s.changes[i, j], s.units[quantity])]
-        rows.append(row)
-    widths = [max(len(r[c]) for r in rows) for c in range(len(heads))]
-    lines = [headline(s)]
-    for row in rows:
-        lines.append(("  " + "  ".join([row[0].ljust(widths[0]), *(
-            text.rjust(w) for text, w in zip(row[1:], widths[1:], strict=True))])).rstrip())
-    return "\n".join([*lines, *(f"  note: {n}" for n in s.notes)])
-
-
-def headline(s: Sensitivities) -> str:
-    """Return what the derivatives are of."""
-    p = s.point
-    name = f"{p.label} ({KIND_NAMES.get(p.kind, p.kind)})" if isinstance(p, SpecialPoint) and p.kind else "equilibrium"
-    shown = ", ".join(f"{q} = {show(s.values[q], s.units[q])}" for q in s.quantities)
-    return f"{name} of {p.problem.name}: {shown}; {s.evaluations} evaluations"
-
-
-def _slope(s: Sensitivities, i: int, j: int) -> str:
-    """Return a derivative with its unit, per degree and in degrees for angles."""
-    top, bottom = s.units[s.quantities[j]], s.units[s.parameters[i]]
-    value = float(s.derivatives[i, j])
-    value *= (math.degrees(1.0) if top == "rad" else 1.0) * (math.radians(1.0) if bottom == "rad" else 1.0)
-    return f"{value:.6g} {per(top, bottom)}".rstrip()
-
-
-def per(top: str, bottom: str) -> str:
-    """Return the unit of a derivative as it is shown, degrees for radians: "N/kg", "N/(N/m)", "1/m"."""
-    top, bottom = ("deg" if u == "rad" else u for u in (top, bottom))
-    if bottom in ("", "1"):
-        return "" if top == "1" else top
-    return f"{top or '1'}/{f'({bottom})' if any(c in bottom for c in '/* ') else bottom}"
-
-
-def _ratio(value: float) -> str:
-    return f"{value:+.4g}" if math.isfinite(value) else "-"
-
-
-def _signed(value: float, unit: str) -> str:
-    text = show(abs(value), unit, 4)
-    return text if value == 0 or not math.isfinite(value) else f"{'-' if value < 0 else '+'}{text}"
-
-
-def write_table(s: Sensitivities, path: str | Path) -> Path:
-    """Write sensitivities as CSV, SI and radians, a row a parameter."""
-    from mjcont.results.files import write_atomically
-
-    text = io.StringIO()
-    out = csv.writer(text, lineterminator="\n")
-    head = ["parameter", "unit", "value", "tolerance"]
-    for name in s.quantities:
-        unit = s.units[name] or "1"
-        head += [f"d {name} [{unit} / unit]", f"elasticity of {name}", f"change of {name} [{unit}]"]
-    out.writerow(head)
-    for i, name in enumerate(s.parameters):
-        row: list[Any] = [name, s.units[name] or "1", repr(s.values[name]), repr(s.tolerances[name])]
-        for j in range(len(s.quantities)):
-            row += [repr(float(a[i, j])) for a in (s.derivatives, s.elasticities, s.changes)]
-        out.writerow(row)
-
-    def write(to: Path) -> None:
-        to.write_text(text.getvalue(), encoding="utf-8")
-
-    return write_atomically(path, write)
 
 
 def draw_tornado(s: Sensitivities, quantity: str, most: int, ax: Any) -> Any:

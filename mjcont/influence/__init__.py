@@ -1,1 +1,6 @@
 """Influence and choice: sensitivities, maps, worst cases."""
+
+
+
+
+

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -26,7 +26,8 @@ from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.points import normalform
 from mjcont.numerics.points.events import ScalarZero
 from mjcont.numerics.points.on_loci import conditions_of
-from mjcont.results.branch import KIND_NAMES, Point, SpecialPoint, show
+from mjcont.results.maps import FollowedPoint
+from mjcont.results.points import KIND_NAMES, Point, SpecialPoint, show
 
 SUPPORTED = ("LP", "HB", "BP", "CP", "BT", "ZH", "UZ")
 _REACH = 0.3  # longest predicted step, scaled
@@ -36,34 +37,6 @@ _CLOSE = 1e-4
 _STEEPER = 3.0
 _EXISTS = 1e-6
 _NEWTON = 6
-
-
-@dataclass(frozen=True, slots=True)
-class FollowedPoint:
-    """A special point that was moved to other parameter values.
-
-    Attributes
-    ----------
-    point : SpecialPoint
-        Where it is now: at the values asked for, or the last one on the way there.
-    reached : bool
-    status : {"reached", "ceased", "at bound", "stuck"}
-    message : str
-        A sentence.
-    path : values of the parameters moved and of the point's own, at every step from the start on.
-    evaluations : int
-    """
-
-    point: SpecialPoint
-    reached: bool
-    status: str
-    message: str
-    path: Sequence[Mapping[str, float]] = field(repr=False)
-    evaluations: int = 0
-
-    def __str__(self) -> str:
-        """Return the sentence and the point."""
-        return f"{self.message} ({len(self.path) - 1} steps, {self.evaluations} evaluations)\n  {self.point}"
 
 
 def defining_kind(point: Point) -> str:

@@ -5,77 +5,26 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from mjcont.curves.collect import units as unit_of
 from mjcont.errors import BoundsError, ParameterError, unknown_name
 from mjcont.influence.critical import check_targets, follow_point
-from mjcont.influence.maps import SpecialMap, special_map
+from mjcont.influence.maps import special_map
 from mjcont.influence.sensitivities import sensitivities
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.search.box import Minimum, minimise
-from mjcont.results.branch import SpecialPoint, show
+from mjcont.results.maps import SpecialMap, WorstCase
+from mjcont.results.points import SpecialPoint, show
+from mjcont.results.quantities import units as unit_of
 
 _TOL = 1e-7
 _CORNERS = 4  # parameters up to which every corner of the box is a start
 _SAME = 1e-7
 _SHORTEST = 1e-3
 _AT_BOUND = 1e-9
-
-
-@dataclass(frozen=True, slots=True)
-class WorstCase:
-    """The extreme of a special point over a box of parameters.
-
-    Attributes
-    ----------
-    point : SpecialPoint
-        Where the quantity is extreme.
-    quantity : str
-    value : float
-        SI and radians.
-    maximise : bool
-    parameters : mapping of parameter to its value there.
-    active : mapping of parameter to "low" or "high", for those at a bound that holds the extreme there.
-    kkt : float
-        Largest component of the projected gradient, relative to the quantity: by how much of itself the quantity
-        would still change over the width of the box.
-    status : {"stationary", "at the edge", "not converged"}
-    message : str
-        A sentence.
-    evaluations : int
-    path : values of the box's parameters and the quantity, at each improvement of the run that led here.
-    starts : number of runs that ended at this extreme, and number of runs.
-    grid : SpecialMap or None
-    """
-
-    point: SpecialPoint
-    quantity: str
-    value: float
-    maximise: bool
-    parameters: Mapping[str, float]
-    active: Mapping[str, str]
-    kkt: float
-    status: str
-    message: str
-    evaluations: int
-    path: Sequence[Mapping[str, float]] = field(repr=False)
-    starts: tuple[int, int] = (1, 1)
-    grid: SpecialMap | None = field(repr=False, default=None)
-
-    def __str__(self) -> str:
-        """Return the extreme, where it is, and the sentence."""
-        units = unit_of(self.point.problem)
-        word = "largest" if self.maximise else "smallest"
-        where = ", ".join(
-            f"{n} = {show(v, units[n], 6)}" + (f" ({self.active[n]})" if n in self.active else "")
-            for n, v in self.parameters.items()
-        )
-        head = f"{word} {self.quantity} at {self.point.label}: {show(self.value, units[self.quantity])} at {where}"
-        return f"{head}\n  {self.message}; {self.evaluations} evaluations\n  {self.point}"
 
 
 def worst_case(

@@ -2,98 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from mjcont.curves.collect import units as unit_of
-from mjcont.errors import MjcontError, ParameterError, unknown_name
+from mjcont.errors import MjcontError, ParameterError
 from mjcont.influence.critical import check_targets, follow_point
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.branch import SpecialPoint, show
+from mjcont.results.maps import SpecialMap
+from mjcont.results.points import SpecialPoint
 
 _SHORTEST = 1e-3
-_KINDS = ("contour", "surface")
-
-
-@dataclass(frozen=True, slots=True)
-class SpecialMap:
-    """A special point over a grid of parameters, SI and radians.
-
-    Attributes
-    ----------
-    point : SpecialPoint
-        The one that was followed.
-    axes : mapping of parameter to its grid.
-    points : array of SpecialPoint, None where it does not exist, in the grid's shape.
-    messages : array of str, empty where it exists, in the grid's shape.
-    evaluations : int
-    """
-
-    point: SpecialPoint
-    axes: Mapping[str, Array]
-    points: Any = field(repr=False)
-    messages: Any = field(repr=False)
-    evaluations: int = 0
-
-    @property
-    def exists(self) -> Array:
-        """Where the point was reached, bool in the grid's shape."""
-        return np.vectorize(lambda p: p is not None, otypes=[bool])(self.points)
-
-    def __getitem__(self, name: str) -> Array:
-        """Return a parameter or observable of the points, NaN where there is none, in the grid's shape."""
-        if name not in self.point.parameters and name not in self.point.observables:
-            raise unknown_name("quantity", name, [*self.point.free, *self.point.observables])
-        return np.vectorize(lambda p: math.nan if p is None else p[name], otypes=[float])(self.points)
-
-    def largest(self, name: str, *, smallest: bool = False) -> SpecialPoint:
-        """Return the point at which a quantity is largest on the grid (or smallest)."""
-        values = self[name]
-        at = np.nanargmin(values) if smallest else np.nanargmax(values)
-        found: SpecialPoint = self.points.ravel()[at]
-        return found
-
-    def plot(self, quantity: str | None = None, *, kind: str = "contour", ax: Any = None) -> Any:
-        """Draw a quantity (default the point's first parameter) over the grid and return the axes.
-
-        Parameters
-        ----------
-        quantity : str, optional
-        kind : {"contour", "surface"}
-            Over two parameters; over one it is a line.
-        ax : matplotlib Axes, optional
-            A three-dimensional one for a surface.
-        """
-        from mjcont.drawing.mapplots import draw_line, draw_map
-
-        name = quantity or next(iter(self.point.free))
-        if kind not in _KINDS:
-            raise unknown_name("kind of map", kind, _KINDS)
-        _ = self[name]
-        if len(self.axes) == 1:
-            return draw_line(self, name, ax)
-        return draw_map(self, name, kind, ax)
-
-    def __str__(self) -> str:
-        """Return the grid, and the range of the point's parameters with where the ends are."""
-        shape = " x ".join(str(len(a)) for a in self.axes.values())
-        there = self.exists
-        lines = [
-            f"{self.point.label} over {shape} values of {', '.join(self.axes)}: exists at {int(there.sum())} of "
-            f"{there.size}; {self.evaluations} evaluations"
-        ]
-        units = unit_of(self.point.problem)
-        for name in self.point.free:
-            ends = [(word, self.largest(name, smallest=low)) for word, low in (("from", True), ("to", False))]
-            lines.append(f"  {name}: " + " ".join(
-                f"{word} {show(p[name], units[name])} at ("
-                + ", ".join(f"{n} = {show(p[n], units[n], 4)}" for n in self.axes) + ")" for word, p in ends))
-        lines += [f"  {m}" for m in dict.fromkeys(m for m in self.messages.ravel() if m)]
-        return "\n".join(lines)
 
 
 def special_map(point: SpecialPoint, grid: Mapping[str, Sequence[float] | Array]) -> SpecialMap:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from pathlib import Path
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,140 +16,12 @@ from mjcont.numerics.equations.defining import Hopf
 from mjcont.numerics.equations.differences import FOURTH_ORDER, PARAMETER, jacobian_from_rows, jacobian_steps
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import System
-from mjcont.results.branch import Point
+from mjcont.results.points import Point
+from mjcont.results.sensitivities import Sensitivities, checked_tolerances
 
 PER_CENT = 0.01
 DEGREE = math.radians(1.0)
 _BREAKS = 1e-6
-
-
-@dataclass(frozen=True, slots=True)
-class Sensitivities:
-    """Derivatives of a point's quantities in parameters, SI and radians.
-
-    Attributes
-    ----------
-    point : Point
-    parameters, quantities : names of the rows and columns of `derivatives`.
-    derivatives : (number of parameters, number of quantities) array.
-    values : mapping of every name to its value at the point.
-    units : mapping of every name to its unit.
-    tolerances : mapping of parameter to the change that `changes` and the chart are for.
-    evaluations : int
-        Evaluations of the forces that it took; observables are measured beside that.
-    notes : sentences.
-    """
-
-    point: Point
-    parameters: tuple[str, ...]
-    quantities: tuple[str, ...]
-    derivatives: Array
-    values: Mapping[str, float] = field(repr=False)
-    units: Mapping[str, str] = field(repr=False)
-    tolerances: Mapping[str, float] = field(repr=False)
-    evaluations: int = 0
-    notes: Sequence[str] = ()
-
-    def __getitem__(self, key: str | tuple[str, str]) -> Any:
-        """Return d quantity / d parameter for (quantity, parameter); for one name its derivatives by name."""
-        if isinstance(key, tuple):
-            return float(self.derivatives[self._row(key[1]), self._column(key[0])])
-        if key in self.quantities:
-            return dict(zip(self.parameters, (float(v) for v in self.derivatives[:, self._column(key)]), strict=True))
-        if key in self.parameters:
-            return dict(zip(self.quantities, (float(v) for v in self.derivatives[self._row(key)]), strict=True))
-        raise unknown_name("quantity or parameter", key, [*self.quantities, *self.parameters])
-
-    def _row(self, name: str) -> int:
-        if name not in self.parameters:
-            raise unknown_name("parameter", name, self.parameters)
-        return self.parameters.index(name)
-
-    def _column(self, name: str) -> int:
-        if name not in self.quantities:
-            raise unknown_name("quantity", name, self.quantities)
-        return self.quantities.index(name)
-
-    @property
-    def elasticities(self) -> Array:
-        """Relative change of each quantity per relative change of each parameter; NaN where either is zero."""
-        p = np.array([self.values[n] for n in self.parameters])[:, None]
-        q = np.array([self.values[n] for n in self.quantities])
-        return self.derivatives * np.where(p == 0.0, np.nan, p) / np.where(q == 0.0, np.nan, q)
-
-    @property
-    def changes(self) -> Array:
-        """First-order change of each quantity for each parameter's tolerance."""
-        return self.derivatives * np.array([self.tolerances[n] for n in self.parameters])[:, None]
-
-    def predict(self, changes: Mapping[str, float]) -> dict[str, float]:
-        """Return the quantities, to first order, after parameters change by the amounts given."""
-        moved = np.array([self.values[n] for n in self.quantities])
-        for name, change in changes.items():
-            moved = moved + self.derivatives[self._row(name)] * change
-        return dict(zip(self.quantities, (float(v) for v in moved), strict=True))
-
-    def ordered(self, quantity: str | None = None) -> list[str]:
-        """Return the parameters by falling influence on a quantity (default the first) within their tolerances."""
-        column = self._column(quantity or self.quantities[0])
-        size = np.abs(self.changes[:, column])
-        return [self.parameters[i] for i in np.lexsort((np.arange(len(size)), -size))]
-
-    def with_tolerances(self, tolerances: Mapping[str, float]) -> Sensitivities:
-        """Return the same derivatives with other tolerances for some parameters."""
-        return Sensitivities(
-            self.point, self.parameters, self.quantities, self.derivatives, self.values, self.units,
-            {**self.tolerances, **checked_tolerances(tolerances, self.parameters)}, self.evaluations, self.notes,
-        )
-
-    def to_csv(self, path: str | Path) -> Path:
-        """Write a row a parameter: value, tolerance, derivatives, elasticities and changes; SI and radians."""
-        from mjcont.drawing.tornado import write_table
-
-        return write_table(self, path)
-
-    def plot(
-        self, quantity: str | None = None, tolerances: Mapping[str, float] | None = None, *, most: int = 15,
-        ax: Any = None,
-    ) -> Any:
-        """Draw a tornado chart: how far a quantity moves within each parameter's tolerance; return the axes.
-
-        Parameters
-        ----------
-        quantity : str, optional
-            Default the first.
-        tolerances : mapping of parameter to change, optional
-            In place of those that the changes are for.
-        most : int
-            The most influential parameters only.
-        ax : matplotlib Axes, optional
-        """
-        from mjcont.drawing.tornado import draw_tornado
-
-        shown = self.with_tolerances(tolerances or {})
-        return draw_tornado(shown, self.quantities[self._column(quantity or self.quantities[0])], most, ax)
-
-    def __str__(self) -> str:
-        """Return a table, the most influential parameter first."""
-        from mjcont.drawing.tornado import table
-
-        return table(self)
-
-
-def checked_tolerances(tolerances: Mapping[str, float], names: Sequence[str]) -> dict[str, float]:
-    """Return tolerances as positive floats.
-
-    Raises
-    ------
-    NameLookupError, ParameterError
-        If a name is none of `names` or a tolerance is not positive.
-    """
-    for name, value in tolerances.items():
-        if name not in names:
-            raise unknown_name("parameter", name, names)
-        if not (math.isfinite(value) and value > 0):
-            raise ParameterError(f"the tolerance of {name} must be positive, got {value:g}")
-    return {name: float(value) for name, value in tolerances.items()}
 
 
 def default_tolerance(value: float, unit: str, bounds: tuple[float, float]) -> float:

@@ -20,7 +20,7 @@ from mjcont.numerics.equations.newton import solve
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.search.creep import creep
-from mjcont.results.branch import Point
+from mjcont.results.points import Point
 
 _CHUNK = 200
 _LONGEST_CHUNK = 5000

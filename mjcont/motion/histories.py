@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from pathlib import Path
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -21,7 +20,8 @@ from mjcont.mechanism.mechanism import Mechanism
 from mjcont.motion.signals import Input, read_inputs
 from mjcont.motion.stepping import INTEGRATORS, Case, Grid, Track, run
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.branch import Column, Point
+from mjcont.results.histories import History
+from mjcont.results.points import Column, Point
 
 MODEL = "model"
 _CASE_KEYS = ("inputs", "start", "keyframe", "state", "velocity")
@@ -29,82 +29,6 @@ _MAX_STEPS = 20_000_000
 _MAX_HALVINGS = 12
 # motion below this part of the model's size counts as none in a relative change
 _NO_MOTION = 1e-6
-
-
-@dataclass(frozen=True, slots=True)
-class History:
-    """A time history.
-
-    Attributes
-    ----------
-    columns : mapping of name to Column: "time", the inputs, every observable; each (N,), SI and radians.
-    states, velocities : (N, nq) and (N, nv) arrays.
-    status : "done", "at rest", "stalled" (the tolerance was not reached), "diverged" or "interrupted".
-    message : a sentence.
-    settings : integrator, timestep, duration, steps, control_step, tol, and error: by how much halving the step
-        changed the history, relative to the motion's size (None without tol).
-    provenance : versions and the model's hash.
-    problem : the Mechanism, or None for a loaded file without one.
-    fixed : mapping of the other parameters to their values.
-    """
-
-    columns: Mapping[str, Column]
-    states: Array
-    velocities: Array
-    status: str
-    message: str
-    settings: Mapping[str, Any]
-    name: str = ""
-    problem: Any = field(repr=False, default=None)
-    provenance: Mapping[str, str] = field(default_factory=dict)
-    fixed: Mapping[str, float] = field(default_factory=dict, repr=False)
-
-    def __len__(self) -> int:
-        """Return the number of samples."""
-        return len(self.states)
-
-    def __getitem__(self, name: str) -> Array:
-        """Return a column, (N,)."""
-        if name in self.columns:
-            return self.columns[name].values
-        if name in self.fixed:
-            return np.full(len(self), self.fixed[name])
-        raise unknown_name("column", name, [*self.columns, *self.fixed])
-
-    def unit(self, name: str) -> str:
-        """Return the unit of a column or of a fixed parameter."""
-        if name in self.columns:
-            return self.columns[name].unit
-        if name in self.fixed:
-            return str(self.problem.parameter(name).unit) if self.problem is not None else ""
-        raise unknown_name("column", name, [*self.columns, *self.fixed])
-
-    @property
-    def units(self) -> dict[str, str]:
-        """Units of all columns."""
-        return {c.name: c.unit for c in self.columns.values()}
-
-    def save(self, path: str | Path) -> Path:
-        """Write the history to an HDF5 file (replacing it whole or not at all) and return the path."""
-        from mjcont.results.historyfiles import save
-
-        return save(self, path)
-
-    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
-        """Write the columns as CSV with units in the header."""
-        from mjcont.results.files import write_columns
-
-        return write_columns(self.columns, path, degrees=degrees)
-
-    def __str__(self) -> str:
-        """Return a one-line summary."""
-        s = self.settings
-        error = s.get("error")
-        known = "no error estimate (tol= asks for one)" if error is None else f"error about {error:.1e}"
-        return (
-            f"{self.name}: time history of {self['time'][-1]:g} s, {len(self)} samples, "
-            f"{s['integrator']} with a step of {s['timestep']:g} s, {known}: {self.message}"
-        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -337,7 +261,7 @@ def _status(outcome: _Outcome, plan: _Plan, last: float) -> tuple[str, str]:
 
 
 def _history(mechanism: Mechanism, case: Case, outcome: _Outcome, plan: _Plan, controlled: bool) -> History:
-    from mjcont.curves.collect import provenance
+    from mjcont.results.provenance import provenance
 
     track, grid = outcome.track, outcome.grid
     states, velocities = np.array(track.states), np.array(track.velocities)

@@ -13,8 +13,8 @@ import numpy as np
 
 from mjcont.numerics.equations.differences import CENTRED, PARAMETER, Stencil
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Values
-from mjcont.results.branch import Branch, Column
-from mjcont.results.files import special_from_row
+from mjcont.results.branch import Branch
+from mjcont.results.points import Column, special_from_row
 from mjcont.results.quantities import Parameter
 
 FRACTION = "leg"

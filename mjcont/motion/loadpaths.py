@@ -27,8 +27,9 @@ from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.walk.trace import Walker
-from mjcont.results.branch import Branch, Point, SpecialPoint, show
-from mjcont.results.loadpaths import Jump, LoadPath, Segment, sliced
+from mjcont.results.branch import Branch, sliced
+from mjcont.results.loadpaths import Jump, LoadPath, Segment
+from mjcont.results.points import Point, SpecialPoint, show
 
 LANDINGS = ("motion", "creep")
 # how far beyond the point of loss the load is taken, relative to the leg: where another rest may be near, farther

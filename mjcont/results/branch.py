@@ -3,134 +3,17 @@
 from __future__ import annotations
 
 import json
-import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
-
-if TYPE_CHECKING:
-    from mjcont.motion.certificates import Certificate
-
-KIND_NAMES = {
-    "LP": "fold",
-    "HB": "Hopf point",
-    "BP": "branch point",
-    "CP": "cusp",
-    "BT": "Bogdanov-Takens point",
-    "GH": "generalised Hopf point",
-    "ZH": "zero-Hopf point",
-    "HH": "double Hopf point",
-    "UZ": "user zero",
-    "CO": "corner",
-    "EP": "end",
-}
-
-
-# observables that a summary line shows; all are in the columns
-_SHOWN = 5
-
-
-def show(value: float, unit: str, digits: int = 7) -> str:
-    """Return a value with its unit; radians are shown in degrees."""
-    if unit == "rad":
-        return f"{math.degrees(value):.{digits}g} deg"
-    return f"{value:.{digits}g} {unit}".rstrip().removesuffix(" 1")
-
-
-@dataclass(frozen=True, slots=True)
-class Point:
-    """One equilibrium.
-
-    Attributes
-    ----------
-    parameters, observables : mappings of name to value, SI and radians.
-    state : (nq,) array; a VectorField's u.
-    eigenvalues : complex array, in 1/s.
-    stability : "stable", "unstable" or "marginal".
-    n_unstable : number of eigenvalues with positive real part.
-    problem : the Mechanism or VectorField.
-    units : mapping of name to unit, for parameters and observables.
-    """
-
-    parameters: Mapping[str, float]
-    observables: Mapping[str, float]
-    state: Array
-    eigenvalues: Array
-    stability: str
-    n_unstable: int
-    problem: Any = field(repr=False)
-    units: Mapping[str, str] = field(repr=False, default_factory=dict)
-
-    def __getitem__(self, name: str) -> float:
-        """Return a parameter's or observable's value."""
-        if name in self.parameters:
-            return self.parameters[name]
-        if name in self.observables:
-            return self.observables[name]
-        raise unknown_name("parameter or observable", name, [*self.parameters, *self.observables])
-
-    def __str__(self) -> str:
-        """Return stability and observables."""
-        shown = ", ".join(f"{k} = {show(v, self.units.get(k, ''))}" for k, v in self.observables.items())
-        return f"{self.stability} ({self.n_unstable} unstable): {shown}"
-
-
-@dataclass(frozen=True, slots=True)
-class SpecialPoint(Point):
-    """A located special point.
-
-    Attributes
-    ----------
-    kind, label : such as "LP" and "LP1".
-    index : row of the branch that holds it.
-    tolerance : size of the last Newton step on its defining system, in scaled unknowns.
-    converged : False for a guess from its bracket.
-    coefficients : normal-form coefficients by name.
-    vectors : null vectors by name, in physical units.
-    note : a sentence, where there is something to say.
-    free : the free parameters of the curve it was found on, with their bounds.
-    curve : the kind of that curve.
-    """
-
-    kind: str = ""
-    label: str = ""
-    index: int = 0
-    tolerance: float = math.nan
-    converged: bool = True
-    coefficients: Mapping[str, Any] = field(default_factory=dict)
-    vectors: Mapping[str, Array] = field(default_factory=dict, repr=False)
-    note: str = ""
-    free: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    curve: str = "equilibria"
-
-    def __str__(self) -> str:
-        """Return kind, parameters, observables, coefficients and the tolerance reached."""
-        head = f"{self.label} ({KIND_NAMES.get(self.kind, self.kind)})"
-        names = [*self.free, *list(self.observables)[:_SHOWN]]
-        shown = ", ".join(f"{n} = {show(self[n], self.units.get(n, ''))}" for n in names)
-        extra = "".join(f", {k} = {_short(v)}" for k, v in self.coefficients.items())
-        state = f"located to {self.tolerance:.1e}" if self.converged else "not converged: a guess"
-        return f"{head}: {shown}{extra}; {state}" + (f" ({self.note})" if self.note else "")
-
-
-def _short(value: Any) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-@dataclass(frozen=True, slots=True)
-class Column:
-    """A named column of a branch: its unit, whether parameter or observable, and its values."""
-
-    name: str
-    unit: str
-    role: str
-    values: Array
+from mjcont.results.certificates import Certificate
+from mjcont.results.points import Column, Point, SpecialPoint, show
 
 
 class _Deferred:
@@ -295,13 +178,13 @@ class Branch:
 
     def save(self, path: str | Path) -> Path:
         """Write the branch to an HDF5 file (replacing it whole or not at all) and return the path."""
-        from mjcont.results.files import save
+        from mjcont.results.branchfiles import save
 
         return save(self, path)
 
     def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
         """Write the columns as CSV with units in the header, angles in degrees unless told otherwise."""
-        from mjcont.results.files import write_csv
+        from mjcont.results.branchfiles import write_csv
 
         return write_csv(self, path, degrees=degrees)
 
@@ -355,3 +238,53 @@ class Branch:
 
 
 Branch.eigenvalues = _Deferred("eigenvalues")  # type: ignore[assignment]
+
+
+def sliced(branch: Branch, first: int, last: int) -> Branch:
+    """Return rows first .. last of a branch, its special points among them kept under their labels."""
+    rows = slice(first, last + 1)
+    return replace(
+        branch,
+        columns={n: replace(c, values=c.values[rows]) for n, c in branch.columns.items()},
+        states=branch.states[rows],
+        eigenvalues=branch.eigenvalues[rows],
+        stability=branch.stability[rows],
+        n_unstable=branch.n_unstable[rows],
+        residuals=branch.residuals[rows],
+        start_index=min(max(branch.start_index - first, 0), last - first),
+        special_points=[
+            replace(p, index=p.index - first) for p in branch.special_points if first <= p.index <= last
+        ],
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Diagram:
+    """The branches of a bifurcation diagram, in the order in which they were found."""
+
+    branches: Sequence[Branch]
+    notes: Sequence[str] = ()
+
+    def __len__(self) -> int:
+        """Return the number of branches."""
+        return len(self.branches)
+
+    def __iter__(self) -> Iterator[Branch]:
+        """Iterate over the branches."""
+        return iter(self.branches)
+
+    def __getitem__(self, index: int) -> Branch:
+        """Return a branch."""
+        return self.branches[index]
+
+    @property
+    def special_points(self) -> list[SpecialPoint]:
+        """Return the special points of all branches; a branch point stands on each of its branches."""
+        return [p for b in self.branches for p in b.special_points]
+
+    def __str__(self) -> str:
+        """Return the summaries of all branches."""
+        lines = [f"{len(self.branches)} branches"]
+        for i, b in enumerate(self.branches, 1):
+            lines += [f"[{i}] {b}"]
+        return "\n".join([*lines, *self.notes])

@@ -1,20 +1,13 @@
-"""Files: branches as HDF5 that other tools read, and as CSV. Nothing read from a file is executed.
+"""What all result files share: written whole or not at all, a header, columns, the model; CSV. Nothing is executed.
 
-Layout of an HDF5 file (format version 1)::
+Every HDF5 file begins with (format version 1)::
 
-    /                     attributes: format, format_version, kind, name, start, start_index, settings (JSON),
-                          declared (JSON: parameters by path; of a Python function only the name), ...
+    /                     attributes: format "mjcont", format_version, kind, name, provenance_..., declared (JSON:
+                          parameters by path; of a Python function only the name)
     /model                the MJCF text (absent for a VectorField)
-    /columns/NAME         (N,) float64, attributes unit, role
-    /states               (N, nq) float64, attributes names, units
-    /eigenvalues/real, /eigenvalues/imag   (N, m) float64
-    /stability            (N,) int8: 1 stable, 0 marginal, -1 unstable
-    /n_unstable           (N,) int32
-    /residuals            (N,) float64, scaled
-    /fixed                attributes: the other parameters' values
-    /special_points/LABEL attributes: kind, index, tolerance, converged, note, coefficients (JSON); vectors/NAME
+    /columns/NAME         (N,) float64, attributes unit, role; their order is an attribute of /columns
 
-A load path (kind "load path") holds such a group for each of its segments: see `pathfiles`.
+The rest is written beside each result: `branchfiles`, `loadpaths`, `histories`, `sweeps`; `formats` reads them all.
 """
 
 from __future__ import annotations
@@ -27,21 +20,15 @@ import tempfile
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import h5py
 import numpy as np
 
 from mjcont.errors import MjcontError, ModelWarning, ResultFileError
-from mjcont.results.branch import Branch, Column, Point, SpecialPoint
-
-if TYPE_CHECKING:
-    pass
+from mjcont.results.points import Column
 
 FORMAT_VERSION = 1
-# What h5py, json and our own reading raise on files with parts missing or overwritten.
-_DAMAGED = (KeyError, IndexError, ValueError, TypeError, AttributeError, OSError, RuntimeError, MjcontError)
-_CODES = {"stable": 1, "marginal": 0, "unstable": -1}
 
 
 def write_atomically(path: str | Path, write: Callable[[Path], None]) -> Path:
@@ -64,50 +51,6 @@ def write_atomically(path: str | Path, write: Callable[[Path], None]) -> Path:
     return path
 
 
-def save(branch: Branch, path: str | Path) -> Path:
-    """Write a branch as HDF5."""
-    return write_atomically(path, lambda temporary: _write(branch, temporary))
-
-
-def _write(branch: Branch, path: Path) -> None:
-    with h5py.File(path, "w") as f:
-        write_branch(branch, f)
-
-
-def write_branch(branch: Branch, f: h5py.Group, *, model: bool = True) -> None:
-    """Write a branch into a file or a group of one, with its model unless the file has that elsewhere."""
-    f.attrs.update(
-        format="mjcont",
-        format_version=FORMAT_VERSION,
-        kind=branch.kind,
-        name=branch.name,
-        start=branch.start,
-        start_index=branch.start_index,
-        settings=branch.settings_json(),
-        free=json.dumps(branch.free),
-        ends=json.dumps(list(branch.ends)),
-        neutral_saddles=json.dumps(list(branch.neutral_saddles)),
-        notes=json.dumps(list(branch.notes)),
-    )
-    write_common(f, branch, model=model)
-    f["states"] = branch.states
-    f["states"].attrs.update(
-        names=json.dumps([n for n, _ in branch.state_labels]), units=json.dumps([u for _, u in branch.state_labels])
-    )
-    f["eigenvalues/real"], f["eigenvalues/imag"] = branch.eigenvalues.real, branch.eigenvalues.imag
-    f["stability"] = np.array([_CODES[s] for s in branch.stability], dtype=np.int8)
-    f["stability"].attrs["meaning"] = "1 stable, 0 marginal, -1 unstable"
-    f["n_unstable"] = branch.n_unstable.astype(np.int32)
-    f["residuals"] = branch.residuals
-    f.create_group("fixed").attrs.update(dict(branch.fixed))
-    f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
-    if branch.certificate is not None:
-        f.attrs["certificate"] = branch.certificate.to_json()
-    group = f.create_group("special_points")
-    for p in branch.special_points:
-        _write_special(group.create_group(p.label), p)
-
-
 def write_common(f: h5py.Group, result: Any, *, model: bool = True) -> None:
     """Write what every result has: its columns, where it comes from, its model unless the file has that elsewhere."""
     f.attrs.update({f"provenance_{k}": v for k, v in result.provenance.items()})
@@ -118,64 +61,6 @@ def write_common(f: h5py.Group, result: Any, *, model: bool = True) -> None:
     for c in result.columns.values():
         f.create_dataset(f"columns/{c.name}", data=c.values, track_order=True).attrs.update(unit=c.unit, role=c.role)
     f["columns"].attrs["order"] = json.dumps(list(result.columns))
-
-
-def _write_special(g: h5py.Group, p: SpecialPoint) -> None:
-    g.attrs.update(
-        kind=p.kind,
-        index=p.index,
-        tolerance=p.tolerance,
-        converged=p.converged,
-        note=p.note,
-        curve=p.curve,
-        coefficients=json.dumps(dict(p.coefficients)),
-    )
-    for name, vector in p.vectors.items():
-        g[f"vectors/{name}"] = vector
-
-
-def load(path: str | Path, problem: Any = None) -> Any:
-    """Read a result; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
-
-    Raises
-    ------
-    ResultFileError
-        If the file does not exist, is no mjcont result, or has a newer format.
-    """
-    path = Path(path)
-    if not path.is_file():
-        raise ResultFileError(f"result file '{path}': no such file")
-    try:
-        f = h5py.File(path, "r")
-    except OSError as error:
-        raise ResultFileError(f"result file '{path}' is not an HDF5 file") from error
-    with f:
-        try:
-            if f.attrs.get("format") != "mjcont":
-                raise ResultFileError(f"result file '{path}' was not written by mjcont")
-            version = int(f.attrs["format_version"])
-            if version > FORMAT_VERSION:
-                raise ResultFileError(
-                    f"result file '{path}' has format version {version}; this mjcont reads up to "
-                    f"{FORMAT_VERSION}: upgrade mjcont"
-                )
-            if f.attrs["kind"] == "history":
-                from mjcont.results.historyfiles import read
-
-                return read(f, problem)
-            if f.attrs["kind"] == "sweep":
-                from mjcont.results.sweeps import read_table
-
-                return read_table(f)
-            if f.attrs["kind"] == "load path":
-                from mjcont.results.pathfiles import read_path
-
-                return read_path(f, read_problem(f, problem))
-            return read_branch(f, read_problem(f, problem))
-        except ResultFileError:
-            raise
-        except _DAMAGED as error:
-            raise ResultFileError(f"result file '{path}' is incomplete or damaged: {error}") from error
 
 
 def read_problem(f: h5py.File, problem: Any) -> Any:
@@ -205,96 +90,10 @@ def read_columns(f: h5py.Group) -> dict[str, Column]:
     return found
 
 
-def read_branch(f: h5py.Group, problem: Any) -> Branch:
-    """Return the branch in a file or a group of one."""
-    columns = read_columns(f)
-    words = {v: k for k, v in _CODES.items()}
-    labels = list(zip(json.loads(f["states"].attrs["names"]), json.loads(f["states"].attrs["units"]), strict=True))
-    branch = Branch(
-        kind=str(f.attrs["kind"]),
-        name=str(f.attrs["name"]),
-        columns=columns,
-        states=frozen(f["states"][()]),
-        state_labels=labels,
-        eigenvalues=frozen(f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]),
-        stability=frozen(np.array([words[int(c)] for c in f["stability"][()]], dtype="U8")),
-        n_unstable=frozen(f["n_unstable"][()].astype(int)),
-        residuals=frozen(f["residuals"][()]),
-        special_points=(),
-        free={k: tuple(v) for k, v in json.loads(f.attrs["free"]).items()},
-        fixed={k: float(v) for k, v in f["fixed"].attrs.items()},
-        fixed_units=json.loads(f.attrs["fixed_units"]),
-        ends=[tuple(e) for e in json.loads(f.attrs["ends"])],
-        start=str(f.attrs["start"]),
-        settings=json.loads(f.attrs["settings"]),
-        provenance={
-            k.removeprefix("provenance_"): str(v) for k, v in f.attrs.items() if k.startswith("provenance_")
-        },
-        problem=problem,
-        start_index=int(f.attrs["start_index"]),
-        neutral_saddles=json.loads(f.attrs["neutral_saddles"]),
-        notes=json.loads(f.attrs["notes"]),
-        certificate=_read_certificate(f),
-    )
-    rows = {len(branch.states), len(branch.eigenvalues), len(branch.stability), len(branch.n_unstable)}
-    if rows | {len(branch.residuals)} | {len(c.values) for c in columns.values()} != {len(branch.states)}:
-        raise ValueError("its columns differ in length")
-    points = [_read_special(f["special_points"][label], label, branch) for label in f["special_points"]]
-    object.__setattr__(branch, "special_points", tuple(sorted(points, key=lambda p: p.index)))
-    return branch
-
-
-def _read_certificate(f: h5py.File) -> Any:
-    if "certificate" not in f.attrs:
-        return None
-    from mjcont.motion.certificates import Certificate
-
-    return Certificate.from_json(str(f.attrs["certificate"]))
-
-
 def frozen(array: np.ndarray) -> np.ndarray:
     """Return an array made read-only."""
     array.flags.writeable = False
     return array
-
-
-def _read_special(g: h5py.Group, label: str, branch: Branch) -> SpecialPoint:
-    index = int(g.attrs["index"])
-    vectors = {k: v[()] for k, v in g["vectors"].items()} if "vectors" in g else {}
-    return special_from_row(
-        branch.row(index),
-        kind=str(g.attrs["kind"]),
-        label=label,
-        index=index,
-        tolerance=float(g.attrs["tolerance"]),
-        converged=bool(g.attrs["converged"]),
-        coefficients=json.loads(g.attrs["coefficients"]),
-        vectors=vectors,
-        note=str(g.attrs["note"]),
-        free=branch.free,
-        curve=str(g.attrs["curve"]),
-    )
-
-
-def special_from_row(row: Point, **details: Any) -> SpecialPoint:
-    """Return a special point from its row of a branch and what is known beside it."""
-    return SpecialPoint(
-        row.parameters,
-        row.observables,
-        row.state,
-        row.eigenvalues,
-        row.stability,
-        row.n_unstable,
-        row.problem,
-        row.units,
-        **details,
-    )
-
-
-def write_csv(branch: Branch, path: str | Path, *, degrees: bool = True) -> Path:
-    """Write the columns of a branch with units in the header; angles in degrees on request."""
-    extra = list(zip(branch.stability, (int(n) for n in branch.n_unstable), branch.labels, strict=True))
-    return write_columns(branch.columns, path, ("stability", "unstable eigenvalues", "label"), extra, degrees=degrees)
 
 
 def write_columns(

@@ -1,18 +1,33 @@
-"""Results of following a load: the pieces of branches on which a mechanism rests, and its jumps between them."""
+"""Results of following a load: the pieces of branches on which a mechanism rests, and its jumps between them.
+
+Layout of a file beside what `files` says (format version 1)::
+
+    /                 attributes: format, format_version, kind "load path", name, vertices (JSON), status, message
+    /model            the MJCF text
+    /segments/I       a branch (see `branchfiles`), attributes direction, leg
+    /jumps/I          attributes: label, kind, index, energy (absent if not defined), energy_note, time, steps, ...
+    /jumps/I/states   (m, nq) samples of the motion; the points on both sides are rows of the segments
+"""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.branch import KIND_NAMES, Branch, Column, Point, show
+from mjcont.results.branch import Branch
+from mjcont.results.branchfiles import read_branch, write_branch
+from mjcont.results.files import FORMAT_VERSION, write_atomically, write_columns
+from mjcont.results.points import KIND_NAMES, Column, Point, show
 
+KIND = "load path"
 _SHOWN = 2
 
 
@@ -158,17 +173,43 @@ class LoadPath:
 
     def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
         """Write the columns along the whole path as CSV with units in the header; a jump lies between two rows."""
-        from mjcont.results.files import write_columns
-
         names = [*self.names, *(n for n in self.segments[0].branch.columns if n not in self.names)]
         columns = {n: Column(n, self.unit(n), "path", self[n]) for n in names}
         return write_columns(columns, path, degrees=degrees)
 
     def save(self, path: str | Path) -> Path:
         """Write the path to an HDF5 file (replacing it whole or not at all) and return the file's path."""
-        from mjcont.results.pathfiles import save_path
+        return write_atomically(path, self._write)
 
-        return save_path(self, path)
+    def _write(self, file: Path) -> None:
+        with h5py.File(file, "w") as f:
+            f.attrs.update(
+                format="mjcont",
+                format_version=FORMAT_VERSION,
+                kind=KIND,
+                name=self.name,
+                vertices=json.dumps([dict(v) for v in self.vertices]),
+                status=self.status,
+                message=self.message,
+                evaluations=self.evaluations,
+                declared=json.dumps(getattr(self.problem, "declared", {})),
+            )
+            mjcf = getattr(self.problem, "mjcf", None)
+            if mjcf is not None:
+                f["model"] = mjcf
+            for i, s in enumerate(self.segments):
+                g = f.create_group(f"segments/{i}")
+                write_branch(s.branch, g, model=False)
+                g.attrs.update(direction=s.direction, leg=s.leg)
+            for i, j in enumerate(self.jumps):
+                g = f.create_group(f"jumps/{i}")
+                g.attrs.update(
+                    label=j.label, kind=j.kind, index=j.index, energy_note=j.energy_note, time=j.time, steps=j.steps,
+                    status=j.status, message=j.message, landed=j.after is not None,
+                )
+                if j.energy is not None:
+                    g.attrs["energy"] = j.energy
+                g["states"] = j.states
 
     def plot(self, x: str | None = None, y: str | None = None, **options: Any) -> Any:
         """Draw the path with arrows; default the parameter against the first observable. See `mjcont.plot`."""
@@ -204,19 +245,29 @@ def _segment(s: Segment) -> str:
     return f"leg {s.leg + 1}: {', '.join(spans)} ({len(s.branch)} rows)"
 
 
-def sliced(branch: Branch, first: int, last: int) -> Branch:
-    """Return rows first .. last of a branch, its special points among them kept under their labels."""
-    rows = slice(first, last + 1)
-    return replace(
-        branch,
-        columns={n: replace(c, values=c.values[rows]) for n, c in branch.columns.items()},
-        states=branch.states[rows],
-        eigenvalues=branch.eigenvalues[rows],
-        stability=branch.stability[rows],
-        n_unstable=branch.n_unstable[rows],
-        residuals=branch.residuals[rows],
-        start_index=min(max(branch.start_index - first, 0), last - first),
-        special_points=[
-            replace(p, index=p.index - first) for p in branch.special_points if first <= p.index <= last
-        ],
+def read(f: h5py.File, problem: Any) -> LoadPath:
+    """Return the load path in a file."""
+    groups = [f[f"segments/{i}"] for i in range(len(f["segments"]))]
+    segments = [
+        Segment(read_branch(g, problem), int(g.attrs["direction"]), int(g.attrs["leg"])) for g in groups
+    ]
+    jumps = [_read_jump(f[f"jumps/{i}"], segments) for i in range(len(f["jumps"]) if "jumps" in f else 0)]
+    a = f.attrs
+    return LoadPath(
+        str(a["name"]), json.loads(a["vertices"]), tuple(segments), tuple(jumps), str(a["status"]),
+        str(a["message"]), int(a["evaluations"]), problem,
+    )
+
+
+def _read_jump(g: h5py.Group, segments: list[Segment]) -> Jump:
+    a, index = g.attrs, int(g.attrs["index"])
+    rows = [(s, int(i)) for s in segments for i in s.rows()]
+    before, at = rows[index]
+    special = [p for p in before.branch.special_points if p.index == at]
+    after = rows[index + 1] if a["landed"] and index + 1 < len(rows) else None
+    return Jump(
+        str(a["label"]), str(a["kind"]), special[0] if special else before.branch.row(at),
+        after[0].branch.row(after[1]) if after else None, index,
+        float(a["energy"]) if "energy" in a else None, str(a["energy_note"]), float(a["time"]), int(a["steps"]),
+        str(a["status"]), str(a["message"]), g["states"][()],
     )

@@ -183,3 +183,9 @@ def default_bounds(value: float, unit: str = "") -> tuple[float, float]:
     if value > 0:
         return (0.1 * value, 10.0 * value)
     return (-1.0, 1.0) if value == 0 else (10.0 * value, 0.1 * value)
+
+
+def units(problem: Any) -> dict[str, str]:
+    """Return the units of all parameters and observables."""
+    found = {p.name: p.unit for p in problem.parameters.values()}
+    return found | {o.name: o.unit for o in problem.observables.values()}

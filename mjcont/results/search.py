@@ -11,7 +11,7 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.branch import Point, show
+from mjcont.results.points import Point, show
 
 _SAME_ENERGY = 1e-7
 _SAME_EIGENVALUE = 1e-5

@@ -23,9 +23,10 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.branch import Column, show
 from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, write_atomically, write_columns
+from mjcont.results.points import Column, show
 
+KIND = "sweep"
 _SHOWN_FAILURES = 5
 
 
@@ -121,7 +122,7 @@ class SweepTable:
 
     def _write(self, path: Path) -> None:
         with h5py.File(path, "w") as f:
-            f.attrs.update(format="mjcont", format_version=FORMAT_VERSION, kind="sweep", name=self.name, what=self.what)
+            f.attrs.update(format="mjcont", format_version=FORMAT_VERSION, kind=KIND, name=self.name, what=self.what)
             f.attrs["nominal"] = json.dumps(dict(self.nominal))
             f.attrs.update({f"provenance_{k}": v for k, v in self.provenance.items()})
             for c in self.columns.values():
@@ -155,7 +156,7 @@ class SweepTable:
         return "\n".join(lines)
 
 
-def read_table(f: h5py.File) -> SweepTable:
+def read(f: h5py.File, problem: Any = None) -> SweepTable:
     """Return the sweep in a file."""
     return SweepTable(
         str(f.attrs["name"]),

@@ -13,10 +13,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-from mjcont.curves.collect import units
 from mjcont.curves.continuation import check_bounds, make_settings
 from mjcont.errors import MjcontError, StudyError, unknown_name
 from mjcont.numerics.equations.settings import Settings
+from mjcont.results.quantities import units
 from mjcont.studies.schema import Table, shown
 
 FILE_STEM = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")

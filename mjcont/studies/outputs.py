@@ -9,15 +9,14 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mjcont.curves.collect import units
 from mjcont.results.files import write_atomically
+from mjcont.results.quantities import units
 
 if TYPE_CHECKING:
-    from mjcont.influence.extremes import WorstCase
-    from mjcont.influence.maps import SpecialMap
-    from mjcont.motion.certificates import Certificate
-    from mjcont.motion.histories import History
-    from mjcont.motion.margins import BarrierCurve
+    from mjcont.results.barriers import BarrierCurve
+    from mjcont.results.certificates import Certificate
+    from mjcont.results.histories import History
+    from mjcont.results.maps import SpecialMap, WorstCase
     from mjcont.results.search import Equilibria
 
 

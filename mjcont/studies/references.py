@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from mjcont.errors import unknown_name
-from mjcont.results.branch import KIND_NAMES
+from mjcont.results.points import KIND_NAMES
 from mjcont.studies.keys import Context, Known, Reader, Reference
 from mjcont.studies.schema import Table
 

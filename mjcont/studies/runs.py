@@ -11,9 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from mjcont.commands.progress import Reporter
-from mjcont.curves.collect import units
 from mjcont.errors import MjcontError, unknown_name
-from mjcont.results.branch import Branch, show
+from mjcont.results.branch import Branch
+from mjcont.results.points import show
+from mjcont.results.quantities import units
 from mjcont.studies.keys import Reference
 from mjcont.studies.plans import Task
 

@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from mjcont.commands.progress import Reporter
-from mjcont.curves.collect import units
 from mjcont.curves.continuation import continue_equilibria
 from mjcont.errors import MjcontError
-from mjcont.results.branch import show
+from mjcont.results.points import show
+from mjcont.results.quantities import units
 from mjcont.studies.plans import BranchPlan, PlotPlan, Study, Task, check_study, load_study
 from mjcont.studies.runs import Running, compute, curves_of, interrupted, start_of, store_curve, task_line
 

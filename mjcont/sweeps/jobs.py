@@ -18,14 +18,15 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.curves.collect import make_point, provenance
+from mjcont.curves.collect import make_point
 from mjcont.curves.continuation import continue_equilibria
 from mjcont.curves.loci import continue_special
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.influence.critical import follow_point
 from mjcont.mechanism.mechanism import Mechanism
-from mjcont.results.branch import Branch, SpecialPoint
-from mjcont.results.files import special_from_row
+from mjcont.results.branch import Branch
+from mjcont.results.points import SpecialPoint, special_from_row
+from mjcont.results.provenance import provenance
 
 METHODS = ("follow", "trace")
 NOMINAL = -1

@@ -12,13 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.curves.collect import provenance, units
 from mjcont.errors import MjcontError, ParameterError, StudyError
 from mjcont.influence.critical import check_alone, check_not_own, point_names
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.search.spanning import heights, spanning_tree
-from mjcont.results.branch import Column, SpecialPoint
 from mjcont.results.files import frozen
+from mjcont.results.points import Column, SpecialPoint
+from mjcont.results.provenance import provenance
+from mjcont.results.quantities import units
 from mjcont.results.sweeps import SweepTable
 from mjcont.studies.plans import Study
 from mjcont.studies.study import output_folder

@@ -1,0 +1,158 @@
+"""Branches as HDF5 that other tools read, and as CSV.
+
+Layout beside what `files` says (format version 1)::
+
+    /                     attributes: start, start_index, settings, free, ends, neutral_saddles, notes (JSON), ...
+    /states               (N, nq) float64, attributes names, units
+    /eigenvalues/real, /eigenvalues/imag   (N, m) float64
+    /stability            (N,) int8: 1 stable, 0 marginal, -1 unstable
+    /n_unstable           (N,) int32
+    /residuals            (N,) float64, scaled
+    /fixed                attributes: the other parameters' values
+    /special_points/LABEL attributes: kind, index, tolerance, converged, note, coefficients (JSON); vectors/NAME
+
+A load path holds such a group for each of its segments.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from mjcont.results.branch import Branch
+from mjcont.results.certificates import Certificate
+from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, write_atomically, write_columns, write_common
+from mjcont.results.points import SpecialPoint, special_from_row
+
+_CODES = {"stable": 1, "marginal": 0, "unstable": -1}
+
+
+def save(branch: Branch, path: str | Path) -> Path:
+    """Write a branch as HDF5."""
+    return write_atomically(path, lambda temporary: _write(branch, temporary))
+
+
+def _write(branch: Branch, path: Path) -> None:
+    with h5py.File(path, "w") as f:
+        write_branch(branch, f)
+
+
+def write_branch(branch: Branch, f: h5py.Group, *, model: bool = True) -> None:
+    """Write a branch into a file or a group of one, with its model unless the file has that elsewhere."""
+    f.attrs.update(
+        format="mjcont",
+        format_version=FORMAT_VERSION,
+        kind=branch.kind,
+        name=branch.name,
+        start=branch.start,
+        start_index=branch.start_index,
+        settings=branch.settings_json(),
+        free=json.dumps(branch.free),
+        ends=json.dumps(list(branch.ends)),
+        neutral_saddles=json.dumps(list(branch.neutral_saddles)),
+        notes=json.dumps(list(branch.notes)),
+    )
+    write_common(f, branch, model=model)
+    f["states"] = branch.states
+    f["states"].attrs.update(
+        names=json.dumps([n for n, _ in branch.state_labels]), units=json.dumps([u for _, u in branch.state_labels])
+    )
+    f["eigenvalues/real"], f["eigenvalues/imag"] = branch.eigenvalues.real, branch.eigenvalues.imag
+    f["stability"] = np.array([_CODES[s] for s in branch.stability], dtype=np.int8)
+    f["stability"].attrs["meaning"] = "1 stable, 0 marginal, -1 unstable"
+    f["n_unstable"] = branch.n_unstable.astype(np.int32)
+    f["residuals"] = branch.residuals
+    f.create_group("fixed").attrs.update(dict(branch.fixed))
+    f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
+    if branch.certificate is not None:
+        f.attrs["certificate"] = branch.certificate.to_json()
+    group = f.create_group("special_points")
+    for p in branch.special_points:
+        _write_special(group.create_group(p.label), p)
+
+
+def _write_special(g: h5py.Group, p: SpecialPoint) -> None:
+    g.attrs.update(
+        kind=p.kind,
+        index=p.index,
+        tolerance=p.tolerance,
+        converged=p.converged,
+        note=p.note,
+        curve=p.curve,
+        coefficients=json.dumps(dict(p.coefficients)),
+    )
+    for name, vector in p.vectors.items():
+        g[f"vectors/{name}"] = vector
+
+
+def read_branch(f: h5py.Group, problem: Any) -> Branch:
+    """Return the branch in a file or a group of one."""
+    columns = read_columns(f)
+    words = {v: k for k, v in _CODES.items()}
+    labels = list(zip(json.loads(f["states"].attrs["names"]), json.loads(f["states"].attrs["units"]), strict=True))
+    branch = Branch(
+        kind=str(f.attrs["kind"]),
+        name=str(f.attrs["name"]),
+        columns=columns,
+        states=frozen(f["states"][()]),
+        state_labels=labels,
+        eigenvalues=frozen(f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]),
+        stability=frozen(np.array([words[int(c)] for c in f["stability"][()]], dtype="U8")),
+        n_unstable=frozen(f["n_unstable"][()].astype(int)),
+        residuals=frozen(f["residuals"][()]),
+        special_points=(),
+        free={k: tuple(v) for k, v in json.loads(f.attrs["free"]).items()},
+        fixed={k: float(v) for k, v in f["fixed"].attrs.items()},
+        fixed_units=json.loads(f.attrs["fixed_units"]),
+        ends=[tuple(e) for e in json.loads(f.attrs["ends"])],
+        start=str(f.attrs["start"]),
+        settings=json.loads(f.attrs["settings"]),
+        provenance={
+            k.removeprefix("provenance_"): str(v) for k, v in f.attrs.items() if k.startswith("provenance_")
+        },
+        problem=problem,
+        start_index=int(f.attrs["start_index"]),
+        neutral_saddles=json.loads(f.attrs["neutral_saddles"]),
+        notes=json.loads(f.attrs["notes"]),
+        certificate=_read_certificate(f),
+    )
+    rows = {len(branch.states), len(branch.eigenvalues), len(branch.stability), len(branch.n_unstable)}
+    if rows | {len(branch.residuals)} | {len(c.values) for c in columns.values()} != {len(branch.states)}:
+        raise ValueError("its columns differ in length")
+    points = [_read_special(f["special_points"][label], label, branch) for label in f["special_points"]]
+    object.__setattr__(branch, "special_points", tuple(sorted(points, key=lambda p: p.index)))
+    return branch
+
+
+def _read_certificate(f: h5py.File) -> Any:
+    if "certificate" not in f.attrs:
+        return None
+    return Certificate.from_json(str(f.attrs["certificate"]))
+
+
+def _read_special(g: h5py.Group, label: str, branch: Branch) -> SpecialPoint:
+    index = int(g.attrs["index"])
+    vectors = {k: v[()] for k, v in g["vectors"].items()} if "vectors" in g else {}
+    return special_from_row(
+        branch.row(index),
+        kind=str(g.attrs["kind"]),
+        label=label,
+        index=index,
+        tolerance=float(g.attrs["tolerance"]),
+        converged=bool(g.attrs["converged"]),
+        coefficients=json.loads(g.attrs["coefficients"]),
+        vectors=vectors,
+        note=str(g.attrs["note"]),
+        free=branch.free,
+        curve=str(g.attrs["curve"]),
+    )
+
+
+def write_csv(branch: Branch, path: str | Path, *, degrees: bool = True) -> Path:
+    """Write the columns of a branch with units in the header; angles in degrees on request."""
+    extra = list(zip(branch.stability, (int(n) for n in branch.n_unstable), branch.labels, strict=True))
+    return write_columns(branch.columns, path, ("stability", "unstable eigenvalues", "label"), extra, degrees=degrees)

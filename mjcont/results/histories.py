@@ -1,0 +1,137 @@
+"""Time histories, and their files.
+
+Layout of a file beside what `files` says (format version 1)::
+
+    /               attributes: format, format_version, kind "history", name, status, message, settings (JSON), ...
+    /model          the MJCF text (absent for a Mechanism made from a compiled model)
+    /columns/NAME   (N,) float64, attributes unit, role
+    /fixed          attributes: the other parameters' values (absent in older files)
+    /states         (N, nq) float64
+    /velocities     (N, nv) float64
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from mjcont.errors import unknown_name
+from mjcont.numerics.equations.problem import Array
+from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, write_atomically, write_columns, write_common
+from mjcont.results.points import Column
+
+KIND = "history"
+
+
+@dataclass(frozen=True, slots=True)
+class History:
+    """A time history.
+
+    Attributes
+    ----------
+    columns : mapping of name to Column: "time", the inputs, every observable; each (N,), SI and radians.
+    states, velocities : (N, nq) and (N, nv) arrays.
+    status : "done", "at rest", "stalled" (the tolerance was not reached), "diverged" or "interrupted".
+    message : a sentence.
+    settings : integrator, timestep, duration, steps, control_step, tol, and error: by how much halving the step
+        changed the history, relative to the motion's size (None without tol).
+    provenance : versions and the model's hash.
+    problem : the Mechanism, or None for a loaded file without one.
+    fixed : mapping of the other parameters to their values.
+    """
+
+    columns: Mapping[str, Column]
+    states: Array
+    velocities: Array
+    status: str
+    message: str
+    settings: Mapping[str, Any]
+    name: str = ""
+    problem: Any = field(repr=False, default=None)
+    provenance: Mapping[str, str] = field(default_factory=dict)
+    fixed: Mapping[str, float] = field(default_factory=dict, repr=False)
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.states)
+
+    def __getitem__(self, name: str) -> Array:
+        """Return a column, (N,)."""
+        if name in self.columns:
+            return self.columns[name].values
+        if name in self.fixed:
+            return np.full(len(self), self.fixed[name])
+        raise unknown_name("column", name, [*self.columns, *self.fixed])
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a column or of a fixed parameter."""
+        if name in self.columns:
+            return self.columns[name].unit
+        if name in self.fixed:
+            return str(self.problem.parameter(name).unit) if self.problem is not None else ""
+        raise unknown_name("column", name, [*self.columns, *self.fixed])
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of all columns."""
+        return {c.name: c.unit for c in self.columns.values()}
+
+    def save(self, path: str | Path) -> Path:
+        """Write the history to an HDF5 file (replacing it whole or not at all) and return the path."""
+        return write_atomically(path, self._write)
+
+    def _write(self, path: Path) -> None:
+        with h5py.File(path, "w") as f:
+            f.attrs.update(
+                format="mjcont",
+                format_version=FORMAT_VERSION,
+                kind=KIND,
+                name=self.name,
+                status=self.status,
+                message=self.message,
+                settings=json.dumps(dict(self.settings)),
+            )
+            write_common(f, self)
+            f["states"], f["velocities"] = self.states, self.velocities
+            f.create_group("fixed").attrs.update(dict(self.fixed))
+
+    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
+        """Write the columns as CSV with units in the header."""
+        return write_columns(self.columns, path, degrees=degrees)
+
+    def __str__(self) -> str:
+        """Return a one-line summary."""
+        s = self.settings
+        error = s.get("error")
+        known = "no error estimate (tol= asks for one)" if error is None else f"error about {error:.1e}"
+        return (
+            f"{self.name}: time history of {self['time'][-1]:g} s, {len(self)} samples, "
+            f"{s['integrator']} with a step of {s['timestep']:g} s, {known}: {self.message}"
+        )
+
+
+def read(f: h5py.File, problem: Any) -> History:
+    """Return the history in a file."""
+    columns = read_columns(f)
+    states, velocities = frozen(f["states"][()]), frozen(f["velocities"][()])
+    if {len(velocities)} | {len(c.values) for c in columns.values()} != {len(states)}:
+        raise ValueError("its columns differ in length")
+    prefix = "provenance_"
+    return History(
+        columns=columns,
+        states=states,
+        velocities=velocities,
+        status=str(f.attrs["status"]),
+        message=str(f.attrs["message"]),
+        settings=json.loads(f.attrs["settings"]),
+        name=str(f.attrs["name"]),
+        problem=problem,
+        fixed={k: float(v) for k, v in f["fixed"].attrs.items()} if "fixed" in f else {},
+        provenance={k.removeprefix(prefix): str(v) for k, v in f.attrs.items() if k.startswith(prefix)},
+    )

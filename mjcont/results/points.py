@@ -1,0 +1,139 @@
+"""Points and special points of curves, named columns, and values as they are shown. Immutable once made."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from mjcont.errors import unknown_name
+from mjcont.numerics.equations.problem import Array
+
+KIND_NAMES = {
+    "LP": "fold",
+    "HB": "Hopf point",
+    "BP": "branch point",
+    "CP": "cusp",
+    "BT": "Bogdanov-Takens point",
+    "GH": "generalised Hopf point",
+    "ZH": "zero-Hopf point",
+    "HH": "double Hopf point",
+    "UZ": "user zero",
+    "CO": "corner",
+    "EP": "end",
+}
+# observables that a summary line shows; all are in the columns
+_SHOWN = 5
+
+
+def show(value: float, unit: str, digits: int = 7) -> str:
+    """Return a value with its unit; radians are shown in degrees."""
+    if unit == "rad":
+        return f"{math.degrees(value):.{digits}g} deg"
+    return f"{value:.{digits}g} {unit}".rstrip().removesuffix(" 1")
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """One equilibrium.
+
+    Attributes
+    ----------
+    parameters, observables : mappings of name to value, SI and radians.
+    state : (nq,) array; a VectorField's u.
+    eigenvalues : complex array, in 1/s.
+    stability : "stable", "unstable" or "marginal".
+    n_unstable : number of eigenvalues with positive real part.
+    problem : the Mechanism or VectorField.
+    units : mapping of name to unit, for parameters and observables.
+    """
+
+    parameters: Mapping[str, float]
+    observables: Mapping[str, float]
+    state: Array
+    eigenvalues: Array
+    stability: str
+    n_unstable: int
+    problem: Any = field(repr=False)
+    units: Mapping[str, str] = field(repr=False, default_factory=dict)
+
+    def __getitem__(self, name: str) -> float:
+        """Return a parameter's or observable's value."""
+        if name in self.parameters:
+            return self.parameters[name]
+        if name in self.observables:
+            return self.observables[name]
+        raise unknown_name("parameter or observable", name, [*self.parameters, *self.observables])
+
+    def __str__(self) -> str:
+        """Return stability and observables."""
+        shown = ", ".join(f"{k} = {show(v, self.units.get(k, ''))}" for k, v in self.observables.items())
+        return f"{self.stability} ({self.n_unstable} unstable): {shown}"
+
+
+@dataclass(frozen=True, slots=True)
+class SpecialPoint(Point):
+    """A located special point.
+
+    Attributes
+    ----------
+    kind, label : such as "LP" and "LP1".
+    index : row of the branch that holds it.
+    tolerance : size of the last Newton step on its defining system, in scaled unknowns.
+    converged : False for a guess from its bracket.
+    coefficients : normal-form coefficients by name.
+    vectors : null vectors by name, in physical units.
+    note : a sentence, where there is something to say.
+    free : the free parameters of the curve it was found on, with their bounds.
+    curve : the kind of that curve.
+    """
+
+    kind: str = ""
+    label: str = ""
+    index: int = 0
+    tolerance: float = math.nan
+    converged: bool = True
+    coefficients: Mapping[str, Any] = field(default_factory=dict)
+    vectors: Mapping[str, Array] = field(default_factory=dict, repr=False)
+    note: str = ""
+    free: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    curve: str = "equilibria"
+
+    def __str__(self) -> str:
+        """Return kind, parameters, observables, coefficients and the tolerance reached."""
+        head = f"{self.label} ({KIND_NAMES.get(self.kind, self.kind)})"
+        names = [*self.free, *list(self.observables)[:_SHOWN]]
+        shown = ", ".join(f"{n} = {show(self[n], self.units.get(n, ''))}" for n in names)
+        extra = "".join(f", {k} = {_short(v)}" for k, v in self.coefficients.items())
+        state = f"located to {self.tolerance:.1e}" if self.converged else "not converged: a guess"
+        return f"{head}: {shown}{extra}; {state}" + (f" ({self.note})" if self.note else "")
+
+
+def _short(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A named column of a branch: its unit, whether parameter or observable, and its values."""
+
+    name: str
+    unit: str
+    role: str
+    values: Array
+
+
+def special_from_row(row: Point, **details: Any) -> SpecialPoint:
+    """Return a special point from its row of a branch and what is known beside it."""
+    return SpecialPoint(
+        row.parameters,
+        row.observables,
+        row.state,
+        row.eigenvalues,
+        row.stability,
+        row.n_unstable,
+        row.problem,
+        row.units,
+        **details,
+    )

@@ -1,0 +1,222 @@
+"""Derivatives of a special point in parameters, as a table and as CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mjcont.errors import ParameterError, unknown_name
+from mjcont.numerics.equations.problem import Array
+from mjcont.results.points import KIND_NAMES, Point, SpecialPoint, show
+
+
+@dataclass(frozen=True, slots=True)
+class Sensitivities:
+    """Derivatives of a point's quantities in parameters, SI and radians.
+
+    Attributes
+    ----------
+    point : Point
+    parameters, quantities : names of the rows and columns of `derivatives`.
+    derivatives : (number of parameters, number of quantities) array.
+    values : mapping of every name to its value at the point.
+    units : mapping of every name to its unit.
+    tolerances : mapping of parameter to the change that `changes` and the chart are for.
+    evaluations : int
+        Evaluations of the forces that it took; observables are measured beside that.
+    notes : sentences.
+    """
+
+    point: Point
+    parameters: tuple[str, ...]
+    quantities: tuple[str, ...]
+    derivatives: Array
+    values: Mapping[str, float] = field(repr=False)
+    units: Mapping[str, str] = field(repr=False)
+    tolerances: Mapping[str, float] = field(repr=False)
+    evaluations: int = 0
+    notes: Sequence[str] = ()
+
+    def __getitem__(self, key: str | tuple[str, str]) -> Any:
+        """Return d quantity / d parameter for (quantity, parameter); for one name its derivatives by name."""
+        if isinstance(key, tuple):
+            return float(self.derivatives[self._row(key[1]), self._column(key[0])])
+        if key in self.quantities:
+            return dict(zip(self.parameters, (float(v) for v in self.derivatives[:, self._column(key)]), strict=True))
+        if key in self.parameters:
+            return dict(zip(self.quantities, (float(v) for v in self.derivatives[self._row(key)]), strict=True))
+        raise unknown_name("quantity or parameter", key, [*self.quantities, *self.parameters])
+
+    def _row(self, name: str) -> int:
+        if name not in self.parameters:
+            raise unknown_name("parameter", name, self.parameters)
+        return self.parameters.index(name)
+
+    def _column(self, name: str) -> int:
+        if name not in self.quantities:
+            raise unknown_name("quantity", name, self.quantities)
+        return self.quantities.index(name)
+
+    @property
+    def elasticities(self) -> Array:
+        """Relative change of each quantity per relative change of each parameter; NaN where either is zero."""
+        p = np.array([self.values[n] for n in self.parameters])[:, None]
+        q = np.array([self.values[n] for n in self.quantities])
+        return self.derivatives * np.where(p == 0.0, np.nan, p) / np.where(q == 0.0, np.nan, q)
+
+    @property
+    def changes(self) -> Array:
+        """First-order change of each quantity for each parameter's tolerance."""
+        return self.derivatives * np.array([self.tolerances[n] for n in self.parameters])[:, None]
+
+    def predict(self, changes: Mapping[str, float]) -> dict[str, float]:
+        """Return the quantities, to first order, after parameters change by the amounts given."""
+        moved = np.array([self.values[n] for n in self.quantities])
+        for name, change in changes.items():
+            moved = moved + self.derivatives[self._row(name)] * change
+        return dict(zip(self.quantities, (float(v) for v in moved), strict=True))
+
+    def ordered(self, quantity: str | None = None) -> list[str]:
+        """Return the parameters by falling influence on a quantity (default the first) within their tolerances."""
+        column = self._column(quantity or self.quantities[0])
+        size = np.abs(self.changes[:, column])
+        return [self.parameters[i] for i in np.lexsort((np.arange(len(size)), -size))]
+
+    def with_tolerances(self, tolerances: Mapping[str, float]) -> Sensitivities:
+        """Return the same derivatives with other tolerances for some parameters."""
+        return Sensitivities(
+            self.point, self.parameters, self.quantities, self.derivatives, self.values, self.units,
+            {**self.tolerances, **checked_tolerances(tolerances, self.parameters)}, self.evaluations, self.notes,
+        )
+
+    def to_csv(self, path: str | Path) -> Path:
+        """Write a row a parameter: value, tolerance, derivatives, elasticities and changes; SI and radians."""
+        from mjcont.results.sensitivities import write_table
+
+        return write_table(self, path)
+
+    def plot(
+        self, quantity: str | None = None, tolerances: Mapping[str, float] | None = None, *, most: int = 15,
+        ax: Any = None,
+    ) -> Any:
+        """Draw a tornado chart: how far a quantity moves within each parameter's tolerance; return the axes.
+
+        Parameters
+        ----------
+        quantity : str, optional
+            Default the first.
+        tolerances : mapping of parameter to change, optional
+            In place of those that the changes are for.
+        most : int
+            The most influential parameters only.
+        ax : matplotlib Axes, optional
+        """
+        from mjcont.drawing.tornado import draw_tornado
+
+        shown = self.with_tolerances(tolerances or {})
+        return draw_tornado(shown, self.quantities[self._column(quantity or self.quantities[0])], most, ax)
+
+    def __str__(self) -> str:
+        """Return a table, the most influential parameter first."""
+        from mjcont.results.sensitivities import table
+
+        return table(self)
+
+
+def checked_tolerances(tolerances: Mapping[str, float], names: Sequence[str]) -> dict[str, float]:
+    """Return tolerances as positive floats.
+
+    Raises
+    ------
+    NameLookupError, ParameterError
+        If a name is none of `names` or a tolerance is not positive.
+    """
+    for name, value in tolerances.items():
+        if name not in names:
+            raise unknown_name("parameter", name, names)
+        if not (math.isfinite(value) and value > 0):
+            raise ParameterError(f"the tolerance of {name} must be positive, got {value:g}")
+    return {name: float(value) for name, value in tolerances.items()}
+
+
+def table(s: Sensitivities) -> str:
+    """Return the sensitivities as text, the most influential parameter first."""
+    heads = ["parameter", "value", "tolerance"]
+    for name in s.quantities:
+        heads += [f"d {name}", "elasticity", "change"]
+    rows = [heads]
+    for name in s.ordered():
+        i, unit = s.parameters.index(name), s.units[name]
+        row = [name, show(s.values[name], unit, 6), "+-" + show(s.tolerances[name], unit, 3)]
+        for j, quantity in enumerate(s.quantities):
+            row += [_slope(s, i, j), _ratio(s.elasticities[i, j]), _signed(s.changes[i, j], s.units[quantity])]
+        rows.append(row)
+    widths = [max(len(r[c]) for r in rows) for c in range(len(heads))]
+    lines = [headline(s)]
+    for row in rows:
+        lines.append(("  " + "  ".join([row[0].ljust(widths[0]), *(
+            text.rjust(w) for text, w in zip(row[1:], widths[1:], strict=True))])).rstrip())
+    return "\n".join([*lines, *(f"  note: {n}" for n in s.notes)])
+
+
+def headline(s: Sensitivities) -> str:
+    """Return what the derivatives are of."""
+    p = s.point
+    name = f"{p.label} ({KIND_NAMES.get(p.kind, p.kind)})" if isinstance(p, SpecialPoint) and p.kind else "equilibrium"
+    shown = ", ".join(f"{q} = {show(s.values[q], s.units[q])}" for q in s.quantities)
+    return f"{name} of {p.problem.name}: {shown}; {s.evaluations} evaluations"
+
+
+def _slope(s: Sensitivities, i: int, j: int) -> str:
+    """Return a derivative with its unit, per degree and in degrees for angles."""
+    top, bottom = s.units[s.quantities[j]], s.units[s.parameters[i]]
+    value = float(s.derivatives[i, j])
+    value *= (math.degrees(1.0) if top == "rad" else 1.0) * (math.radians(1.0) if bottom == "rad" else 1.0)
+    return f"{value:.6g} {per(top, bottom)}".rstrip()
+
+
+def per(top: str, bottom: str) -> str:
+    """Return the unit of a derivative as it is shown, degrees for radians: "N/kg", "N/(N/m)", "1/m"."""
+    top, bottom = ("deg" if u == "rad" else u for u in (top, bottom))
+    if bottom in ("", "1"):
+        return "" if top == "1" else top
+    return f"{top or '1'}/{f'({bottom})' if any(c in bottom for c in '/* ') else bottom}"
+
+
+def _ratio(value: float) -> str:
+    return f"{value:+.4g}" if math.isfinite(value) else "-"
+
+
+def _signed(value: float, unit: str) -> str:
+    text = show(abs(value), unit, 4)
+    return text if value == 0 or not math.isfinite(value) else f"{'-' if value < 0 else '+'}{text}"
+
+
+def write_table(s: Sensitivities, path: str | Path) -> Path:
+    """Write sensitivities as CSV, SI and radians, a row a parameter."""
+    from mjcont.results.files import write_atomically
+
+    text = io.StringIO()
+    out = csv.writer(text, lineterminator="\n")
+    head = ["parameter", "unit", "value", "tolerance"]
+    for name in s.quantities:
+        unit = s.units[name] or "1"
+        head += [f"d {name} [{unit} / unit]", f"elasticity of {name}", f"change of {name} [{unit}]"]
+    out.writerow(head)
+    for i, name in enumerate(s.parameters):
+        row: list[Any] = [name, s.units[name] or "1", repr(s.values[name]), repr(s.tolerances[name])]
+        for j in range(len(s.quantities)):
+            row += [repr(float(a[i, j])) for a in (s.derivatives, s.elasticities, s.changes)]
+        out.writerow(row)
+
+    def write(to: Path) -> None:
+        to.write_text(text.getvalue(), encoding="utf-8")
+
+    return write_atomically(path, write)
