@@ -80,7 +80,8 @@ def _inspect(args: argparse.Namespace) -> int:
 
 
 def _run(args: argparse.Namespace) -> int:
-    from mjcont.commands.progress import Reporter, Table
+    from mjcont.commands.progress import Table
+    from mjcont.studies.reporter import Reporter
     from mjcont.studies.study import interruption, load_study, run_study
 
     with _warnings_as_lines():

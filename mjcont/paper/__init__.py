@@ -1,1 +1,6 @@
 """The paper's figures, findings and report."""
+
+
+
+
+

@@ -10,7 +10,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from mjcont.errors import unknown_name
-from mjcont.paper.reproduce import ReproduceResult, available, draw, stem
+from mjcont.paper.findings import stem
+from mjcont.paper.reproduce import ReproduceResult, available, draw
 
 # Name of the script and what it does, in the order of the report.
 STUDIES: Mapping[str, str] = {

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import html
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from mjcont.paper.reproduce import FigureResult, Finding
+from mjcont.paper.findings import FigureResult, Finding
 
 INTRODUCTION = (
     "The figures are those of Knowles, Krauskopf, Lowenberg, Neild and Thota, A Bifurcation Study of a Dynamic Model "

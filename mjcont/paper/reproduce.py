@@ -32,53 +32,13 @@ import numpy as np
 from mjcont.errors import MjcontError, NameLookupError
 from mjcont.models.loading import models_folder
 from mjcont.numerics.equations.problem import Array
+from mjcont.paper.findings import FigureResult, Finding, label_of, stem
 from mjcont.paper.report import as_html, markdown, verdict
 from mjcont.results.branch import Branch
 from mjcont.results.files import write_atomically
 
 _SCRIPT = re.compile(r"fig(\d\d)\.py")
 _ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """One thing that a figure shows: the claim, what was computed, and whether the claim holds."""
-
-    claim: str
-    computed: str
-    holds: bool
-
-    def __post_init__(self) -> None:
-        """Make `holds` a plain bool, whatever NumPy gave."""
-        object.__setattr__(self, "holds", bool(self.holds))
-
-
-@dataclass(frozen=True, slots=True)
-class FigureResult:
-    """A figure or a study that was drawn, or failed for a reason; `stamp` identifies all that it was made from."""
-
-    figure: int | str
-    title: str
-    caption: str
-    findings: tuple[Finding, ...]
-    reason: str
-    stamp: str
-
-    @property
-    def image(self) -> str:
-        """Name of the picture's file."""
-        return f"{stem(self.figure)}.png"
-
-    def __str__(self) -> str:
-        """Return the outcome in one line."""
-        if self.reason:
-            return f"{self.label}: failed: {self.reason}"
-        return f"{self.label}: {sum(f.holds for f in self.findings)} of {len(self.findings)} findings hold"
-
-    @property
-    def label(self) -> str:
-        """A figure's number or a study's name, to be read."""
-        return _label(self.figure)
 
 
 @dataclass(frozen=True, slots=True)
@@ -230,7 +190,7 @@ def _draw_all(todo: Sequence[int | str], out: Path, stamps: dict[int | str, str]
         while waiting or running:
             while waiting and len(running) < jobs:
                 n = waiting.pop(0)
-                process = context.Process(target=_draw, args=(n, _script(n), out, stamps[n]), name=_label(n))
+                process = context.Process(target=_draw, args=(n, _script(n), out, stamps[n]), name=label_of(n))
                 with _environment(_ONE_THREAD):
                     process.start()
                 running[process.sentinel] = (n, process)
@@ -306,17 +266,8 @@ def _result(figure: int | str, script: Path, findings: Sequence[Finding], reason
     except SyntaxError:
         doc = ""
     first, _, caption = doc.partition("\n")
-    title = first.rstrip(".") or _label(figure).capitalize()
+    title = first.rstrip(".") or label_of(figure).capitalize()
     return FigureResult(figure, title, caption.strip(), tuple(findings), reason, stamp)
-
-
-def stem(figure: int | str) -> str:
-    """Return the name, without ending, of a figure's or a study's script and files."""
-    return f"fig{figure:02d}" if isinstance(figure, int) else figure
-
-
-def _label(figure: int | str) -> str:
-    return f"figure {figure}" if isinstance(figure, int) else figure
 
 
 def _script(figure: int | str) -> Path:

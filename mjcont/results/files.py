@@ -123,3 +123,16 @@ def write_columns(
 
 def _csv_number(value: float) -> str:
     return repr(float(value)) if math.isfinite(value) else ""
+
+
+def output_folder(path: str | Path) -> Path:
+    """Return a folder, made if it is missing, after trying to write to it."""
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        reason = "it is a file" if folder.is_file() else error.strerror
+        raise MjcontError(f"cannot write to the output folder '{path}': {reason}") from error
+    return folder

@@ -18,8 +18,9 @@ from mjcont.models.loading import shipped_models
 from mjcont.results.quantities import FRICTION
 from mjcont.studies.keys import Context, Known, Reference, about, check_keys, pair, read, value_table
 from mjcont.studies.schema import Table
-from mjcont.studies.sweeps import SweepPlan, read_sweep
+from mjcont.studies.sweeps import read_sweep
 from mjcont.studies.tables import KINDS, PLOT, PLOT_SUFFIXES, known
+from mjcont.sweeps.plan import Setup, SweepPlan
 
 __all__ = ["PLOT_SUFFIXES", "BranchPlan", "PlotPlan", "Study", "Task", "check_study", "load_study"]
 
@@ -86,6 +87,37 @@ class Study:
         """Everything to be computed, in that order: searches, branches, the other tables as `KINDS` has them."""
         first = tuple(t for t in self.tasks if t.kind == "search")
         return (*first, *self.branches, *(t for t in self.tasks if t.kind != "search"))
+
+    def sweep_setup(self) -> Setup:
+        """Return the sweep that the study's table [sweep] asks for.
+
+        Raises
+        ------
+        StudyError
+            If there is none, or the nominal values of what varies differ between its branches.
+        """
+        plan = self.sweep
+        if plan is None:
+            raise StudyError(f"study '{self.file}': it has no table [sweep]: docs/sweeps.md tells what goes in there")
+        needed = {p.branch for p in plan.points if p.branch}
+        branches = tuple(b for b in self.branches if b.name in needed)
+        starts = [self.mechanism.values(b.start) for b in branches]
+        for name in plan.vary:
+            if len({s[name] for s in starts}) > 1:
+                raise StudyError(
+                    f"study '{self.file}': sweep.vary.{name}: its nominal value differs between the branches "
+                    f"{', '.join(sorted(needed))}"
+                )
+        own: dict[str, tuple[str, ...]] = {}
+        for p in plan.points:
+            first = next((b.parameter for b in branches if b.name == p.branch), "")
+            own[p.name] = (*own[p.of], p.parameter) if p.of else (first,)
+        record = plan.record or tuple(f"{n}.{q}" for n, qs in own.items() for q in qs)
+        friction = self.friction
+        text = Path(self.file).read_text(encoding="utf-8")
+        nominal = {n: starts[0][n] for n in plan.vary}
+        solved = frozenset(q for qs in own.values() for q in qs)
+        return Setup(self.mechanism, plan, friction, {**starts[0], **nominal}, solved, record, branches, None, text)
 
 
 def load_study(path: str | Path, *, friction: str | None = None) -> Study:

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mjcont.commands.progress import Reporter
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.results.branch import Branch
 from mjcont.results.points import show
 from mjcont.results.quantities import units
 from mjcont.studies.keys import Reference
 from mjcont.studies.plans import Task
+from mjcont.studies.reporter import Reporter
 
 
 @dataclass(frozen=True, slots=True)

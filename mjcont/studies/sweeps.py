@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,24 +13,10 @@ from mjcont.mechanism.mechanism import Mechanism
 from mjcont.studies.schema import Table, shown
 from mjcont.sweeps.designs import DESIGNS, DISTRIBUTIONS, Spread
 from mjcont.sweeps.jobs import METHODS, PointPlan
+from mjcont.sweeps.plan import DEEPEST, SweepPlan
 
 _NAME = re.compile(r"[A-Za-z_]\w*")
 _PERCENT = re.compile(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*%\s*")
-_DEEPEST = 12
-
-
-@dataclass(frozen=True, slots=True)
-class SweepPlan:
-    """A sweep as a study file asks for it."""
-
-    points: tuple[PointPlan, ...]
-    vary: Mapping[str, Spread | tuple[float, ...]]
-    design: str
-    cases: int | None = None
-    seed: int = 0
-    record: tuple[str, ...] = ()
-    method: str = METHODS[0]
-    deepest: int = _DEEPEST
 
 
 def read_sweep(root: Table, mechanism: Mechanism, branches: Sequence[Any]) -> SweepPlan | None:
@@ -50,7 +35,7 @@ def read_sweep(root: Table, mechanism: Mechanism, branches: Sequence[Any]) -> Sw
     for key, valid in choices.items():
         if key in table.data and table.text(key) not in valid:
             raise table.error(key, unknown_name(key, table.text(key), valid))
-    cases, seed, depth = table.integer("cases", 0), table.integer("seed", 0), table.integer("depth", _DEEPEST)
+    cases, seed, depth = table.integer("cases", 0), table.integer("seed", 0), table.integer("depth", DEEPEST)
     for key, value, least in (("cases", cases, 1), ("seed", seed, 0), ("depth", depth, 1)):
         if key in table.data and value < least:
             raise table.error(key, f"expected a whole number from {least} on, got {value}")

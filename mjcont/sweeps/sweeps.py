@@ -6,62 +6,39 @@ import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from mjcont.errors import MjcontError, ParameterError, StudyError
-from mjcont.influence.critical import check_alone, check_not_own, point_names
+from mjcont.errors import ParameterError
+from mjcont.influence.critical import check_alone, check_not_own
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.search.spanning import heights, spanning_tree
-from mjcont.results.files import frozen
+from mjcont.results.files import frozen, output_folder
 from mjcont.results.points import Column, SpecialPoint
 from mjcont.results.provenance import provenance
 from mjcont.results.quantities import units
 from mjcont.results.sweeps import SweepTable
-from mjcont.studies.plans import Study
-from mjcont.studies.study import output_folder
-from mjcont.studies.sweeps import SweepPlan
 from mjcont.sweeps.cluster import make_crew
-from mjcont.sweeps.designs import DESIGNS, Spread, Vary, make_design, scaled_distances
+from mjcont.sweeps.designs import Spread, Vary, make_design, scaled_distances
 from mjcont.sweeps.engine import Run, Tree
 from mjcont.sweeps.jobs import (
     NOMINAL,
     describe_model,
     plain_point,
     read_quantity,
-    trace_points,
     write_job,
 )
 from mjcont.sweeps.journal import Journal, digest
+from mjcont.sweeps.plan import Setup, Sweepable, of_points
 
 Progress = Callable[[int, int, int], None]
 
 
-@dataclass(frozen=True, slots=True)
-class _Setup:
-    """A sweep before its first case: the model, what varies, how the points at the nominal case are had."""
-
-    mechanism: Any
-    plan: SweepPlan
-    friction: str
-    nominal: Mapping[str, float]
-    own: frozenset[str]
-    record: tuple[str, ...]
-    branches: tuple[Any, ...]
-    given: Mapping[str, SpecialPoint] | None
-    text: str = ""
-
-    def points(self) -> Mapping[str, SpecialPoint]:
-        if self.given is not None:
-            return self.given
-        return trace_points(self.mechanism, [asdict(b) for b in self.branches], self.plan.points, {})
-
-
 def sweep(
-    what: Study | Mapping[str, SpecialPoint],
+    what: Sweepable | Mapping[str, SpecialPoint],
     vary: Vary | None = None,
     *,
     out: str | Path,
@@ -112,7 +89,7 @@ def sweep(
     MjcontError
         If something in the arguments does not fit, the folder holds another sweep, or all workers are lost.
     """
-    setup = _of_study(what) if isinstance(what, Study) else _of_points(what, vary)
+    setup = what.sweep_setup() if isinstance(what, Sweepable) else of_points(what, vary)
     changed: dict[str, Any] = {"vary": vary, "design": design, "cases": cases, "seed": seed}
     plan = replace(setup.plan, **{k: v for k, v in changed.items() if v is not None})
     record = setup.record if record is None else tuple(record)
@@ -139,56 +116,7 @@ def sweep(
 # -- setting up ----------------------------------------------------------------------------------------------
 
 
-def _of_study(study: Study) -> _Setup:
-    plan = study.sweep
-    if plan is None:
-        raise StudyError(f"study '{study.file}': it has no table [sweep]: docs/sweeps.md tells what goes in there")
-    needed = {p.branch for p in plan.points if p.branch}
-    branches = tuple(b for b in study.branches if b.name in needed)
-    starts = [study.mechanism.values(b.start) for b in branches]
-    for name in plan.vary:
-        if len({s[name] for s in starts}) > 1:
-            raise StudyError(
-                f"study '{study.file}': sweep.vary.{name}: its nominal value differs between the branches "
-                f"{', '.join(sorted(needed))}"
-            )
-    own: dict[str, tuple[str, ...]] = {}
-    for p in plan.points:
-        first = next((b.parameter for b in branches if b.name == p.branch), "")
-        own[p.name] = (*own[p.of], p.parameter) if p.of else (first,)
-    record = plan.record or tuple(f"{n}.{q}" for n, qs in own.items() for q in qs)
-    friction = study.friction
-    text = Path(study.file).read_text(encoding="utf-8")
-    nominal = {n: starts[0][n] for n in plan.vary}
-    solved = frozenset(q for qs in own.values() for q in qs)
-    return _Setup(study.mechanism, plan, friction, {**starts[0], **nominal}, solved, record, branches, None, text)
-
-
-def _of_points(points: Mapping[str, SpecialPoint], vary: Vary | None) -> _Setup:
-    if not points or vary is None:
-        raise ParameterError("name at least one special point, and say what varies")
-    for name, p in points.items():
-        if not name.isidentifier():
-            raise ParameterError(f"'{name}': a point's name consists of letters, digits and '_'")
-        if not point_names(p):
-            raise MjcontError(f"{name}: only special points can be followed, this is an equilibrium")
-    first = next(iter(points.values()))
-    for name, p in points.items():
-        if p.problem is not first.problem:
-            raise ParameterError(f"{name} belongs to another Mechanism: the points of a sweep share one")
-    nominal = first.problem.values(first.parameters)
-    for n in vary:
-        first.problem.parameter(n)
-        if len({p.problem.values(p.parameters)[n] for p in points.values()}) > 1:
-            raise ParameterError(f"the nominal value of {n} differs between the points")
-    record = tuple(f"{n}.{q}" for n, p in points.items() for q in point_names(p))
-    plan = SweepPlan((), {}, DESIGNS[0])
-    own = frozenset(q for p in points.values() for q in point_names(p))
-    friction = "frictionless"
-    return _Setup(first.problem, plan, friction, nominal, own, record, (), points)
-
-
-def _check_names(setup: _Setup) -> None:
+def _check_names(setup: Setup) -> None:
     """Refuse parameters that the points solve for, and pairs that act on the same field."""
     parameters = {n: setup.mechanism.parameter(n) for n in setup.plan.vary}
     for name in parameters:
@@ -201,7 +129,7 @@ def _check_names(setup: _Setup) -> None:
                 raise ParameterError(f"{one.name} and {other.name} act on the same field of the model: name one")
 
 
-def _header(setup: _Setup, model: Mapping[str, Any], values: Array) -> dict[str, Any]:
+def _header(setup: Setup, model: Mapping[str, Any], values: Array) -> dict[str, Any]:
     plan = setup.plan
     where = {n: plain_point(p) for n, p in setup.given.items()} if setup.given is not None else [
         [asdict(p) for p in plan.points], [asdict(b) for b in setup.branches]]
@@ -217,7 +145,7 @@ def _header(setup: _Setup, model: Mapping[str, Any], values: Array) -> dict[str,
     }
 
 
-def _begin(setup: _Setup, model: Mapping[str, Any]) -> dict[str, Any]:
+def _begin(setup: Setup, model: Mapping[str, Any]) -> dict[str, Any]:
     """Compute the nominal case and return it with the job that the workers get."""
     points = setup.points()
     for p in points.values():
@@ -242,7 +170,7 @@ def _begin(setup: _Setup, model: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _compute(
-    setup: _Setup, values: Array, journal: Journal, crew_of: Callable[[], Any], progress: Progress | None
+    setup: Setup, values: Array, journal: Journal, crew_of: Callable[[], Any], progress: Progress | None
 ) -> None:
     """Compute the cases that the journal does not have."""
     failed = sum(r["status"] == "failed" for r in journal.records.values())
@@ -268,7 +196,7 @@ def _compute(
         crew.close()
 
 
-def _table(setup: _Setup, values: Array, journal: Journal) -> SweepTable:
+def _table(setup: Setup, values: Array, journal: Journal) -> SweepTable:
     rows = [journal.records[i] for i in range(len(values))]
     unit_of = units(setup.mechanism)
     columns = {

@@ -10,7 +10,7 @@ from mjcont.paper.reproduce import scripts_folder
 
 SCRIPT = '''"""A title: {name}."""
 from mjcont.drawing.plotting import new_figure, save_figure
-from mjcont.paper.reproduce import Finding
+from mjcont.paper.findings import Finding
 
 
 def main(out):

@@ -9,7 +9,8 @@ import pytest
 
 import mjcont as mc
 from mjcont.paper import reproduce as module
-from mjcont.paper.reproduce import Finding, available, distances, load_script, reproduce, whole
+from mjcont.paper.findings import Finding
+from mjcont.paper.reproduce import available, distances, load_script, reproduce, whole
 
 GOOD = '''"""Figure 1: a line.
 
@@ -18,7 +19,7 @@ A caption with <angle> brackets.
 from pathlib import Path
 
 from mjcont.drawing.plotting import new_figure, save_figure
-from mjcont.paper.reproduce import Finding
+from mjcont.paper.findings import Finding
 
 
 def main(out):

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import mjcont as mc
-from mjcont.commands.progress import Reporter, Table
+from mjcont.commands.progress import Table
+from mjcont.studies.reporter import Reporter
 from mjcont.studies.schema import quantity
 from mjcont.studies.study import load_study, run_study
 
