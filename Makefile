@@ -33,8 +33,9 @@ reproduce: env ## draw the paper's figures and check its findings, in out/reprod
 reproduce-fast: env ## the figures that take seconds only
 	$(BIN)/mjcont reproduce 3 5 -o $(OUT)
 
-test: env ## lint, types and tests
+test: env ## lint, rooms, types and tests
 	$(BIN)/ruff check
+	$(BIN)/lint-imports
 	$(BIN)/mypy
 	$(BIN)/pytest -q -n auto
 
@@ -52,7 +53,7 @@ bench: env ## measure speed beside a floor and peers, in out/benchmarks.json (mi
 
 clean: ## remove .venv, builds and caches; results in out/ stay
 	@if test -e $(STAMP) || test -e $(UNFINISHED); then rm -f $(STAMP) && rm -rf $(VENV); fi
-	rm -rf build dist *.egg-info .mypy_cache .pytest_cache .ruff_cache
+	rm -rf build dist *.egg-info .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find mjcont scripts tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
 
 $(STAMP): pyproject.toml constraints.txt $(if $(FRESH),,FORCE)

@@ -64,23 +64,9 @@ def continue_special(
     MjcontError, BoundsError, NameLookupError, ParameterError
         See their messages.
     """
-    problem = point.problem
-    if followed_as(point) not in CONTINUABLE:
-        raise MjcontError(
-            f"a point of kind {point.kind or 'regular'} has no curve to follow. Valid kinds: {', '.join(CONTINUABLE)}."
-        )
-    if problem is None:
-        raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
+    kind = _continued_as(point)
     settings = make_settings(options)
-    free = free_parameters(point, parameter, bounds)
-    kind = followed_as(point)
-    if kind != point.kind:  # a point on a locus is followed with the parameter fixed that led to it
-        free = [p for p in free if p.name != list(point.free)[-1]]
-    if len(free) != CODIMENSION[kind] + 1:
-        raise MjcontError(
-            f"{point.label} lies on a curve in {len(free) - 1} parameters: a {_NAMES[kind]} curve has "
-            f"{CODIMENSION[kind] + 1} free parameters, this would have {len(free)}"
-        )
+    free = _freed(point, kind, free_parameters(point, parameter, bounds))
     system = locus_system(point, kind, free)
     stop: Callable[[Any], str | None] | None = unfolding_stop(system) if kind == "BP" else None
     detectors = locus_detectors(kind, system, settings, lyapunov, zeros or {})
@@ -95,6 +81,35 @@ def continue_special(
     where = ", ".join(f"{p.name} = {show(system.base[p.name], p.unit)}" for p in free)
     locus = collect(f"{kind} locus", system, traces, directions, f"from {point.label} at {where}", settings)
     return replace(locus, settings={**locus.settings, "zeros": dict(zeros)}) if zeros else locus
+
+
+def _continued_as(point: SpecialPoint) -> str:
+    """Return the kind of locus that goes through a point.
+
+    Raises
+    ------
+    MjcontError
+        If there is none, or the point came without its problem.
+    """
+    kind = followed_as(point)
+    if kind not in CONTINUABLE:
+        raise MjcontError(
+            f"a point of kind {point.kind or 'regular'} has no curve to follow. Valid kinds: {', '.join(CONTINUABLE)}."
+        )
+    if point.problem is None:
+        raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
+    return kind
+
+
+def _freed(point: SpecialPoint, kind: str, free: Sequence[Free]) -> list[Free]:
+    """Return the free parameters of the locus; a point on a locus is followed with the one fixed that led to it."""
+    found = [p for p in free if kind == point.kind or p.name != list(point.free)[-1]]
+    if len(found) != CODIMENSION[kind] + 1:
+        raise MjcontError(
+            f"{point.label} lies on a curve in {len(found) - 1} parameters: a {_NAMES[kind]} curve has "
+            f"{CODIMENSION[kind] + 1} free parameters, this would have {len(found)}"
+        )
+    return found
 
 
 def default_ends(kind: str) -> tuple[str, ...]:

@@ -70,10 +70,8 @@ def find_equilibria(
     region : mapping of name to (low, high), or callable
         Ranges of joints, components, observables or parameters, or `region(point)` that returns whether an
         equilibrium counts; default everywhere.
-    starts : int
-        Quasi-random starts in each round.
-    seed : int
-        Seed of the starts: the same seed gives the same result.
+    starts : number of quasi-random starts in each round.
+    seed : seed of the starts: the same seed gives the same result.
     max_solutions, max_starts, max_evaluations, max_seconds : limits
         `max_starts` is 25 rounds unless given.
     keyframes : bool
@@ -95,10 +93,8 @@ def find_equilibria(
         if number < 1:
             raise ParameterError(f"{name} must be at least 1, got {number}")
     search = _prepare(problem, _parameter_values(problem, params), region)
-    most = 25 * starts if max_starts is None else max_starts
-    limits = _Limits(
-        max_solutions, most, max_evaluations, max_seconds, search.problem.evaluations, time.monotonic()
-    )
+    most, spent = 25 * starts if max_starts is None else max_starts, search.problem.evaluations
+    limits = _Limits(max_solutions, most, max_evaluations, max_seconds, spent, time.monotonic())
     first = [problem.start_state(), *problem.keyframes.values()] if keyframes else []
     with np.errstate(all="ignore"):
         ended = search.run(first, starts, seed, limits, progress)

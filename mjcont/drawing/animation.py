@@ -63,44 +63,33 @@ def animate(
     Parameters
     ----------
     result : History, Branch or LoadPath
-    path : str or Path
-        A .gif, or an .mp4 where ffmpeg is installed; written whole or not at all.
+    path : a .gif, or an .mp4 where ffmpeg is installed; written whole or not at all.
     x, y : str, optional
         Columns of the diagram. Default time against the first observable for a history, else the parameter against
         the first observable, for a locus its two parameters.
-    on : Branch, or several, optional
-        What to draw the diagram of; default for a history x becomes the branch's parameter.
-    fps : float
-        Frames a second.
+    on : what to draw the diagram of; default for a history x becomes the branch's parameter.
+    fps : frames a second.
     seconds : float, optional
         Length of the animation; default real time for histories of 2 to 20 s, otherwise the nearer of these, and 8 s
         for branches and load paths.
-    size : (int, int)
-        Width and height in pixels.
-    degrees : bool
-        Show angles in degrees.
-    plane : str, optional
-        As for `draw`.
+    size : width and height in pixels.
+    degrees : whether angles are shown in degrees.
+    plane : as for `draw`.
     rendering : {"drawing", "mujoco"}
         How the mechanism is shown: drawn in its plane by matplotlib, or rendered by MuJoCo, which needs OpenGL.
-    camera : str, optional
-        With MuJoCo, the name of one of the model's cameras; default its free camera.
-    progress : callable, optional
-        Called as `progress(done, frames)`.
+    camera : with MuJoCo, the name of one of the model's cameras; default its free camera.
+    progress : called as `progress(done, frames)`.
 
     Raises
     ------
     MjcontError
-        If the suffix, a number, or the result is not one that can be shown, ffmpeg or OpenGL is missing, or a
-        drawing is asked of a mechanism that does not move in a plane.
-    NameLookupError
-        If there is no such column, camera or rendering.
+        If the suffix, a number, or the result is not one that can be shown, ffmpeg or OpenGL is missing, there is
+        no such column, camera or rendering, or a drawing is asked of a mechanism that does not move in a plane.
     """
     path, beneath = Path(path), _branches(on)
     _check_options(fps, seconds, size, rendering, camera)
     check_movie(path, fps)
-    chosen = default_columns(beneath[0] if beneath else result) if isinstance(result, Result) else ("", "")
-    columns = (x or chosen[0], y or chosen[1])
+    columns = _columns(result, beneath, x, y)
     track = track_of(result, *columns)
     length = seconds if seconds is not None else _length(result)
     frames = frames_of(track, _count(length, fps))
@@ -111,6 +100,12 @@ def animate(
         return write_movie(path, lambda k: stage.image(frames[k], k), len(frames), fps, progress)
     finally:
         actor.close()
+
+
+def _columns(result: Result, beneath: Sequence[Branch], x: str | None, y: str | None) -> tuple[str, str]:
+    """Return the columns of the diagram: those asked for, or the result's own."""
+    chosen = default_columns(beneath[0] if beneath else result) if isinstance(result, Result) else ("", "")
+    return x or chosen[0], y or chosen[1]
 
 
 class _Drawn:

@@ -102,17 +102,14 @@ def plot(
         Columns: parameters or observables.
     ax : matplotlib Axes, optional
         Where to draw; default a new figure, which is `plot(...).figure`. It needs no display.
-    degrees : bool
-        Draw angles in degrees.
-    labels : bool or mapping
-        Label the special points; a mapping such as `{"LP1": "FP2"}` renames some.
+    degrees : whether angles are drawn in degrees.
+    labels : bool, or mapping such as `{"LP1": "FP2"}` that renames some special points
     colors : sequence of matplotlib colours, optional
         One a branch, repeated if there are fewer.
     legend : sequence of str, or bool, optional
         Names of the branches. By default several branches are named by what differs between them; True also
         explains the line styles, False leaves the legend out.
-    wrap : bool
-        Break the line where an angle jumps by more than half a turn.
+    wrap : whether the line breaks where an angle jumps by more than half a turn.
 
     Raises
     ------
@@ -128,26 +125,29 @@ def plot(
     data = [(_column(b, x, degrees), _column(b, y, degrees), _breaks(b, (x, y)) if wrap else ()) for b in branches]
     if ax is None:
         _, ax = new_figure()
-    names = _names(branches, legend)
     drawn = sum(len(_xy(line)) == 0 for line in ax.lines)
     palette = colors or [COLORS[(drawn + i) % len(COLORS)] for i in range(len(branches))]
-    for i, (branch, (xs, ys, breaks)) in enumerate(zip(branches, data, strict=True)):
+    for i, (branch, name, (xs, ys, breaks)) in enumerate(zip(branches, _names(branches, legend), data, strict=True)):
         color = palette[i % len(palette)]
         # An empty line carries the branch's name: its first piece may be dashed, and it counts the colours used.
-        ax.plot([], [], color=color, label=names[i] or "_branch")
+        ax.plot([], [], color=color, label=name or "_branch")
         draw_curve(ax, xs, ys, pieces(branch), color=color, breaks=breaks)
         draw_points(ax, xs, ys, branch.special_points, labels=labels, color=color)
     for i, path in enumerate(paths):
         color = (colors or COLORS[1:])[(len(branches) * bool(colors) + i) % len(colors or COLORS[1:])]
         draw_path(ax, path, x, y, degrees=degrees, color=color, labels=labels is not False and not branches)
-    ax.set_xlabel(_axis_label(curves, x, degrees))
-    ax.set_ylabel(_axis_label(curves, y, degrees))
+    ax.set(xlabel=_axis_label(curves, x, degrees), ylabel=_axis_label(curves, y, degrees))
+    _explain(ax, branches, legend)
+    place_labels(ax)
+    return ax
+
+
+def _explain(ax: Axes, branches: Iterable[Branch], legend: Sequence[str] | bool | None) -> None:
+    """Add the legend, with the line styles on request."""
     if legend is True:
         _explain_styles(ax, branches)
     if any(not str(line.get_label()).startswith("_") for line in ax.lines) and legend is not False:
         ax.legend(frameon=True, framealpha=0.85, edgecolor="none", fontsize=8.5)
-    place_labels(ax)
-    return ax
 
 
 def _explain_styles(ax: Axes, branches: Iterable[Branch]) -> None:

@@ -104,11 +104,7 @@ def verify_stability(
         raise MjcontError("verify_stability needs a curve of equilibria of a Mechanism (loaded with it)")
     if n < 1 or not amplitude > 0 or not tolerance > 0 or not resolution > 0:
         raise ParameterError("n, amplitude, tolerance and resolution must be positive")
-    if rows is None:
-        rows = sorted({round(i) for i in np.linspace(0, len(branch) - 1, min(n, len(branch)))})
-    wrong = [r for r in rows if not 0 <= r < len(branch)]
-    if wrong:
-        raise ParameterError(f"row {wrong[0]} is not on the branch: it has rows 0 to {len(branch) - 1}")
+    rows = _rows(branch, n, rows)
     first = branch.row(0)
     mechanism, _ = hold_rigid_modes(branch.problem, first.state, first.parameters)
     probes, checks = [], []
@@ -125,6 +121,16 @@ def verify_stability(
     units = {name: branch.unit(name) for name in branch.free}
     certificate = Certificate(tuple(sorted(checks, key=lambda c: c.index)), tolerance, resolution, units)
     return replace(branch, certificate=certificate)
+
+
+def _rows(branch: Branch, n: int, given: Sequence[int] | None) -> Sequence[int]:
+    """Return the rows given, or n of them spread evenly."""
+    if given is None:
+        return sorted({round(i) for i in np.linspace(0, len(branch) - 1, min(n, len(branch)))})
+    for row in given:
+        if not 0 <= row < len(branch):
+            raise ParameterError(f"row {row} is not on the branch: it has rows 0 to {len(branch) - 1}")
+    return given
 
 
 def _critical(branch: Branch, row: int) -> complex:

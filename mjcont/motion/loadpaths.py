@@ -67,12 +67,9 @@ def load_path(
     landing : {"motion", "creep"}
         Where an escape lands: by motion in time with the damping the model has, or without inertia, the limit of
         large damping: quick, and never short of damping.
-    max_time : float
-        In s, after which a motion counts as not coming to rest.
-    max_jumps : int
-        Number of jumps after which the path ends.
-    **options
-        Fields of `Settings`: ds, ds_max, ...
+    max_time : in s, after which a motion counts as not coming to rest.
+    max_jumps : number of jumps after which the path ends.
+    **options : fields of `Settings`: ds, ds_max, ...
 
     Returns
     -------
@@ -84,9 +81,7 @@ def load_path(
     NameLookupError, BoundsError, ParameterError, StartError
         See their messages.
     """
-    problem, given = (source.problem, source) if isinstance(source, Branch) else (source, None)
-    if problem is None:
-        raise MjcontError("the branch was loaded without its problem: mc.load(path, problem=...)")
+    problem, given = _sourced(source)
     if landing not in LANDINGS:
         raise ParameterError(f"landing must be one of {', '.join(LANDINGS)}; got {landing!r}")
     if not (max_time > 0 and max_jumps >= 0):
@@ -104,6 +99,14 @@ def load_path(
         problem.name, vertices, tuple(follower.segments), tuple(follower.jumps), status, message,
         problem.evaluations - before + follower.stepped, problem,
     )
+
+
+def _sourced(source: Any) -> tuple[Any, Branch | None]:
+    """Return the problem of a source, and the branch if it is one."""
+    problem, given = (source.problem, source) if isinstance(source, Branch) else (source, None)
+    if problem is None:
+        raise MjcontError("the branch was loaded without its problem: mc.load(path, problem=...)")
+    return problem, given
 
 
 def _vertices(problem: Any, parameter: Any, path: Any, start: Any) -> list[dict[str, float]]:

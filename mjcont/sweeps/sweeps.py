@@ -65,8 +65,7 @@ def sweep(
     out : path
         A folder for sweep.jsonl (the journal), sweep.csv and sweep.h5.
     design : {"latin hypercube", "monte carlo", "grid", "list"}
-    cases, seed : int
-        Of the first two designs.
+    cases, seed : of the first two designs.
     record : sequence of str
         Quantities such as "cusp.F_ul"; default the parameters that each point's defining system solves for.
     limit : int, optional
@@ -77,8 +76,7 @@ def sweep(
         Instead of them.
     scheduler : str, optional
         Instead of them: address of a Dask scheduler.
-    progress : callable, optional
-        Called as progress(done, all, failed).
+    progress : called as progress(done, all, failed).
 
     Returns
     -------
@@ -90,20 +88,8 @@ def sweep(
         If something in the arguments does not fit, the folder holds another sweep, or all workers are lost.
     """
     setup = what.sweep_setup() if isinstance(what, Sweepable) else of_points(what, vary)
-    changed: dict[str, Any] = {"vary": vary, "design": design, "cases": cases, "seed": seed}
-    plan = replace(setup.plan, **{k: v for k, v in changed.items() if v is not None})
-    record = setup.record if record is None else tuple(record)
-    if len(set(record)) != len(record) or not record:
-        raise ParameterError(f"name at least one quantity to record, each once; got {', '.join(record) or 'none'}")
-    names = list(plan.vary)
-    model = describe_model(setup.mechanism, names, setup.friction)
-    nominal = {**setup.mechanism.values(), **setup.nominal}
-    setup = replace(setup, plan=plan, record=tuple(record), nominal={n: nominal[n] for n in names})
-    _check_names(setup)
-    values = make_design(plan.design, plan.vary, setup.nominal, cases=plan.cases, seed=plan.seed)
-    if limit is not None and limit < 1:
-        raise ParameterError(f"limit must be a whole number from 1 on, got {limit}")
-    values = values[:limit]
+    setup, model = _changed(setup, {"vary": vary, "design": design, "cases": cases, "seed": seed}, record)
+    values = _values(setup, limit)
     folder = output_folder(out)
     with Journal(folder / "sweep.jsonl", _header(setup, model, values), lambda: _begin(setup, model)) as journal:
         _compute(setup, values, journal, lambda: make_crew(executor, scheduler, workers), progress)
@@ -114,6 +100,31 @@ def sweep(
 
 
 # -- setting up ----------------------------------------------------------------------------------------------
+
+
+def _changed(
+    setup: Setup, given: Mapping[str, Any], record: Sequence[str] | None
+) -> tuple[Setup, dict[str, Any]]:
+    """Return the sweep with what was given in place of its own, and its model as plain data."""
+    plan = replace(setup.plan, **{k: v for k, v in given.items() if v is not None})
+    wanted = setup.record if record is None else tuple(record)
+    if len(set(wanted)) != len(wanted) or not wanted:
+        raise ParameterError(f"name at least one quantity to record, each once; got {', '.join(wanted) or 'none'}")
+    names = list(plan.vary)
+    model = describe_model(setup.mechanism, names, setup.friction)
+    nominal = {**setup.mechanism.values(), **setup.nominal}
+    setup = replace(setup, plan=plan, record=wanted, nominal={n: nominal[n] for n in names})
+    _check_names(setup)
+    return setup, model
+
+
+def _values(setup: Setup, limit: int | None) -> Array:
+    """Return the parameter values of the cases, (N, number of parameters): the first of the design, if limited."""
+    plan = setup.plan
+    values = make_design(plan.design, plan.vary, setup.nominal, cases=plan.cases, seed=plan.seed)
+    if limit is not None and limit < 1:
+        raise ParameterError(f"limit must be a whole number from 1 on, got {limit}")
+    return values[:limit]
 
 
 def _check_names(setup: Setup) -> None:
