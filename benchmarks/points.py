@@ -15,7 +15,7 @@ from mujoco.batch import Batch
 import mjcont as mc
 from benchmarks.cases import Case
 from benchmarks.measure import seconds
-from mjcont.mechanism import batches as rows
+from mjcont.mechanism import batches
 
 
 class Floor:
@@ -110,8 +110,8 @@ def split(case: Case) -> dict[str, float]:
         forward = mujoco_time.wrap(Batch.forward)
         set_models = mujoco_time.wrap(Batch.set_models)
 
-    original = rows.Batch
-    rows.Batch = TimedBatch  # type: ignore[misc]
+    original = batches.Batch
+    batches.Batch = TimedBatch  # type: ignore[misc]
     try:
         with (
             _patched(np.linalg, _ALGEBRA, algebra),
@@ -123,7 +123,7 @@ def split(case: Case) -> dict[str, float]:
             mujoco_time.total = algebra.total = 0.0
             whole = seconds(case.run)
     finally:
-        rows.Batch = original  # type: ignore[misc]
+        batches.Batch = original  # type: ignore[misc]
         _forget_batches(case)
     shares = {"mujoco": mujoco_time.total / whole, "algebra": algebra.total / whole}
     return {**shares, "python": 1.0 - sum(shares.values())}

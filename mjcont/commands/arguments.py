@@ -1,4 +1,4 @@
-"""The arguments of the command line: what each command takes. What they do is in cli.py."""
+"""The arguments of the command line: what each command takes. What they do is in `cli`."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mjcont.commands import animate as cli_animate
+from mjcont.commands import animate
 from mjcont.commands.arguments import parser
 from mjcont.errors import MjcontError, ResultFileError
 from mjcont.results.quantities import FRICTION
@@ -308,7 +308,7 @@ def _value(name: str, text: str, unit: str) -> float:
 
 
 def _animate(args: argparse.Namespace) -> int:
-    return cli_animate.run(args, say)
+    return animate.run(args, say)
 
 
 _COMMANDS = {

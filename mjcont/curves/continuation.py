@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from mjcont.curves.collect import Progress, collect, make_point, run_directions, special_point
 from mjcont.curves.walkers import equilibrium_walker, monitor_of, point_stop
-from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError, unknown_name
+from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.numerics.equations.newton import Corrected, find_start, solve
 from mjcont.numerics.equations.problem import Array, Values
-from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.settings import make_settings
 from mjcont.numerics.equations.system import Free, System
 from mjcont.numerics.points.events import Located, ScalarZero
 from mjcont.numerics.points.on_equilibria import square_system
@@ -22,55 +21,7 @@ from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.points import Point, show
-
-
-def make_settings(options: Mapping[str, Any]) -> Settings:
-    """Return Settings from keyword options.
-
-    Raises
-    ------
-    NameLookupError
-        If an option does not exist; the message lists those that do.
-    """
-    valid = [f.name for f in fields(Settings)]
-    for name in options:
-        if name not in valid:
-            raise unknown_name("option", name, valid)
-    given = dict(options)
-    if "ds" not in given and "ds_max" in given:
-        given["ds"] = min(Settings().ds, given["ds_max"])
-    if "ds_min" not in given and "ds" in given:
-        given["ds_min"] = min(Settings().ds_min, given["ds"])
-    return Settings(**given)
-
-
-def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) -> tuple[float, float]:
-    """Return the bounds of a parameter: those given, or its own.
-
-    Raises
-    ------
-    BoundsError
-        If they are not two increasing finite numbers, or lie outside a control's range.
-    """
-    parameter = problem.parameter(name)
-    if parameter.kind == "switch":
-        raise BoundsError(f"'{name}' is a switch, 0 or 1, and cannot vary along a curve: give it as a start value")
-    if bounds is None:
-        own, hard = parameter.bounds, parameter.hard_bounds
-        return max(own[0], hard[0]), min(own[1], hard[1])
-    try:
-        low, high = (float(b) for b in bounds)
-    except (TypeError, ValueError) as error:
-        raise BoundsError(f"bounds of {name} must be two numbers (low, high), got {bounds!r}") from error
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise BoundsError(f"bounds of {name} must be finite with low < high, got ({low:g}, {high:g})")
-    hard_low, hard_high = parameter.hard_bounds
-    if low < hard_low or high > hard_high:
-        raise BoundsError(
-            f"bounds ({low:g}, {high:g}) of {name} leave {parameter.limits}: narrow the bounds"
-            + ("" if parameter.springs else " or widen the range in the XML")
-        )
-    return low, high
+from mjcont.results.quantities import check_bounds
 
 
 def start_from(

@@ -8,17 +8,12 @@ from typing import Any
 import numpy as np
 
 from mjcont.curves.collect import Progress, build_branch, completed, ends_of, ordered_rows, reporter
-from mjcont.curves.continuation import (
-    check_bounds,
-    continue_equilibria,
-    find_equilibrium,
-    make_settings,
-)
+from mjcont.curves.continuation import continue_equilibria, find_equilibrium
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError
 from mjcont.numerics.equations.newton import correct, solve
 from mjcont.numerics.equations.problem import Array
-from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Free, System
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.step.arclength import CurvePoint, point_from
@@ -26,6 +21,7 @@ from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace, trace
 from mjcont.results.branch import Branch, Diagram
 from mjcont.results.points import Point, SpecialPoint
+from mjcont.results.quantities import check_bounds
 
 _OFFSET = 1e-2
 _SAME = 1e-5

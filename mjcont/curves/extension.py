@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 
 from mjcont.curves.collect import Progress, build_branch, completed, ends_of, ordered_rows, reporter
-from mjcont.curves.continuation import check_bounds, make_settings
 from mjcont.curves.loci import default_ends, locus_detectors
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.numerics.equations.problem import Array
-from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.points.on_equilibria import critical_square
@@ -25,6 +24,7 @@ from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.trace import Trace, Walker, trace
 from mjcont.results.branch import Branch
 from mjcont.results.points import SpecialPoint
+from mjcont.results.quantities import check_bounds
 
 _ENDS = ("first", "last")
 _SAME = 1e-4

@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import Any
 
 from mjcont.curves.collect import Progress, collect, run_directions
-from mjcont.curves.continuation import check_bounds, check_direction, hold_rigid_modes, make_settings
+from mjcont.curves.continuation import check_direction, hold_rigid_modes
 from mjcont.curves.walkers import monitor_of
 from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
-from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.points.events import Detector
 from mjcont.numerics.points.on_equilibria import zero_detector
@@ -18,6 +18,7 @@ from mjcont.numerics.points.on_loci import conditions_of, fold_locus_detectors, 
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.points import KIND_NAMES, SpecialPoint, show
+from mjcont.results.quantities import check_bounds
 
 CONTINUABLE = ("LP", "HB", "BP", "CP", "BT", "ZH")
 _NAMES = {"LP": "fold", "HB": "Hopf", "BP": "branch-point", "CP": "cusp", "BT": "Bogdanov-Takens", "ZH": "zero-Hopf"}

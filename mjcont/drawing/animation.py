@@ -72,8 +72,7 @@ def animate(
     seconds : float, optional
         Length of the animation; default real time for histories of 2 to 20 s, otherwise the nearer of these, and 8 s
         for branches and load paths.
-    size : width and height in pixels.
-    degrees : whether angles are shown in degrees.
+    size, degrees : width and height in pixels; whether angles are shown in degrees.
     plane : as for `draw`.
     rendering : {"drawing", "mujoco"}
         How the mechanism is shown: drawn in its plane by matplotlib, or rendered by MuJoCo, which needs OpenGL.

@@ -70,7 +70,7 @@ class Evaluator:
 
     @property
     def sides(self) -> list[bytes]:
-        """What tells apart the smooth pieces of the forces in the last evaluation (see `rows.one_sided`)."""
+        """What tells apart the smooth pieces of the forces in the last evaluation (see `sides.one_sided`)."""
         return self._last.sides if self.nonsmooth and self._last is not None else []
 
     @property

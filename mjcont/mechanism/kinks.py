@@ -1,7 +1,7 @@
 """Forces that are smooth in pieces only: springs with a dead band, saturating actuators, tendons that touch a geom.
 
 Which piece a state lies on is a row of small integers, the *codes*: zero for an element that is idle. Limits and
-contacts are constraints and have sides of their own (see `rows`).
+contacts are constraints and have sides of their own (see `batches`).
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ Their grammar is object:pattern.attribute[index]*factor+offset,
 
 with `object` one of joint, body, site, geom, tendon, actuator, equality, mocap, option, control. What has no name
 in the model is called by its place: joint0, tendon1, ... `equality:NAME.stiffness` is no field but the effective
-stiffness of a constraint (see equalities.py). Paths that begin with `spec:` are read by `specpaths`.
+stiffness of a constraint (see `models.equalities`). Paths that begin with `spec:` are read by `specpaths`.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 A hinge or ball joint of the tree gets slides with stiffness k and damping c before it; a connect or weld becomes one
 `general` actuator an axis between two sites, with affine bias: force -k gap - c (rate of the gap). Poses stay as they
-are: in an assembled pose every bush is relaxed. The text itself is edited (mjcf.py), so that it stays readable.
+are: in an assembled pose every bush is relaxed. The text itself is edited (`mjcf`), so that it stays readable.
 """
 
 from __future__ import annotations

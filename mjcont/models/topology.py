@@ -2,7 +2,7 @@
 
 A model is a tree of joints plus *closures*: `connect` and `weld` constraints, or bush actuators between two sites. With
 J the Jacobian of all closures at a pose (and of the slides of elastic pins), the mobility is n - rank J. A closure that
-is a constraint is stiff at rest, not rigid: it is a spring (equalities.py).
+is a constraint is stiff at rest, not rigid: it is a spring (see `equalities`).
 """
 
 from __future__ import annotations

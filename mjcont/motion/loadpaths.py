@@ -14,14 +14,14 @@ from typing import Any
 import numpy as np
 
 from mjcont.curves.collect import collect, run_directions
-from mjcont.curves.continuation import find_equilibrium, hold_rigid_modes, make_settings
+from mjcont.curves.continuation import find_equilibrium, hold_rigid_modes
 from mjcont.curves.walkers import equilibrium_detectors
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.mechanism.energy import potential_energy, without_potential
 from mjcont.motion.escape import Landing, escape
 from mjcont.motion.legs import FRACTION, Leg, unwrapped
 from mjcont.numerics.equations.problem import Array, Values
-from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
 from mjcont.numerics.spectra.stability import spectrum_of

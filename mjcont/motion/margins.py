@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.curves.continuation import check_bounds, continue_equilibria, hold_rigid_modes
+from mjcont.curves.continuation import continue_equilibria, hold_rigid_modes
 from mjcont.curves.search import find_equilibria
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.mechanism.energy import potential_energy, total_energy
@@ -24,6 +24,7 @@ from mjcont.numerics.search.creep import creep, rates
 from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
 from mjcont.results.branch import Branch, sliced
 from mjcont.results.points import Point
+from mjcont.results.quantities import check_bounds
 
 Saddles = Branch | Point | Sequence[Any]
 _ASIDE = 1e-2

@@ -189,3 +189,32 @@ def units(problem: Any) -> dict[str, str]:
     """Return the units of all parameters and observables."""
     found = {p.name: p.unit for p in problem.parameters.values()}
     return found | {o.name: o.unit for o in problem.observables.values()}
+
+
+def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) -> tuple[float, float]:
+    """Return the bounds of a parameter: those given, or its own.
+
+    Raises
+    ------
+    BoundsError
+        If they are not two increasing finite numbers, or lie outside a control's range.
+    """
+    parameter = problem.parameter(name)
+    if parameter.kind == "switch":
+        raise BoundsError(f"'{name}' is a switch, 0 or 1, and cannot vary along a curve: give it as a start value")
+    if bounds is None:
+        own, hard = parameter.bounds, parameter.hard_bounds
+        return max(own[0], hard[0]), min(own[1], hard[1])
+    try:
+        low, high = (float(b) for b in bounds)
+    except (TypeError, ValueError) as error:
+        raise BoundsError(f"bounds of {name} must be two numbers (low, high), got {bounds!r}") from error
+    if not (math.isfinite(low) and math.isfinite(high) and low < high):
+        raise BoundsError(f"bounds of {name} must be finite with low < high, got ({low:g}, {high:g})")
+    hard_low, hard_high = parameter.hard_bounds
+    if low < hard_low or high > hard_high:
+        raise BoundsError(
+            f"bounds ({low:g}, {high:g}) of {name} leave {parameter.limits}: narrow the bounds"
+            + ("" if parameter.springs else " or widen the range in the XML")
+        )
+    return low, high

@@ -1,7 +1,7 @@
 """Tables of a study file as data: which keys each has, how they are read, what they default to.
 
 A key's reader checks its value against the model and what the study names before; every problem is noted, not only the
-first. `studyrefs` has the keys that name other results, `studytables` the tables themselves.
+first. `references` has the keys that name other results, `tables` the tables themselves.
 """
 
 from __future__ import annotations
@@ -13,10 +13,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-from mjcont.curves.continuation import check_bounds, make_settings
 from mjcont.errors import MjcontError, StudyError, unknown_name
-from mjcont.numerics.equations.settings import Settings
-from mjcont.results.quantities import units
+from mjcont.numerics.equations.settings import Settings, make_settings
+from mjcont.results.quantities import check_bounds, units
 from mjcont.studies.schema import Table, shown
 
 FILE_STEM = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")

@@ -1,6 +1,6 @@
 """Studies: files that name a model, parameter values, what to compute and what to draw, and what runs them.
 
-docs/studies.md describes the files, `plans` reads and checks them, `studyruns` computes their tables.
+docs/studies.md describes the files, `plans` reads and checks them, `runs` computes their tables.
 """
 
 from __future__ import annotations

@@ -6,13 +6,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mjcont.curves.continuation import check_bounds
 from mjcont.curves.loci import CONTINUABLE
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.motion.loadpaths import LANDINGS
 from mjcont.motion.stepping import INTEGRATORS
 from mjcont.results.points import show
-from mjcont.results.quantities import units
+from mjcont.results.quantities import check_bounds, units
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
 from mjcont.studies.keys import Context, Key, Kind

@@ -19,7 +19,7 @@ import mjcont as mc
 from mjcont.commands.cli import main
 from mjcont.numerics.search.spanning import heights, spanning_tree
 from mjcont.studies.study import Study
-from mjcont.sweeps import engine as sweepengine
+from mjcont.sweeps import engine
 from mjcont.sweeps.designs import make_design
 from mjcont.sweeps.engine import Crew, Run, Tree
 
@@ -192,7 +192,7 @@ def test_a_journal_cut_anywhere_is_resumed_to_the_same_table(tmp_path: Path) -> 
 def test_a_sweep_that_is_done_computes_nothing_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked = study(tmp_path)
     first = mc.sweep(asked, out=tmp_path, workers=1)
-    monkeypatch.setattr(sweepengine, "run_items", None)
+    monkeypatch.setattr(engine, "run_items", None)
     np.testing.assert_array_equal(mc.sweep(asked, out=tmp_path, workers=1)["fold.F"], first["fold.F"])
 
 

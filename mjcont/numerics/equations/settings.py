@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any
 
-from mjcont.errors import ParameterError
+from mjcont.errors import ParameterError, unknown_name
 
 SMALLEST_CHORD = 1e-9
 
@@ -57,3 +59,23 @@ class Settings:
             raise ParameterError("max_points and max_corrections must be at least 2")
         if not self.chord >= SMALLEST_CHORD:
             raise ParameterError(f"chord must be {SMALLEST_CHORD:g} or more (inf adds no rows), got {self.chord:g}")
+
+
+def make_settings(options: Mapping[str, Any]) -> Settings:
+    """Return Settings from keyword options.
+
+    Raises
+    ------
+    NameLookupError
+        If an option does not exist; the message lists those that do.
+    """
+    valid = [f.name for f in fields(Settings)]
+    for name in options:
+        if name not in valid:
+            raise unknown_name("option", name, valid)
+    given = dict(options)
+    if "ds" not in given and "ds_max" in given:
+        given["ds"] = min(Settings().ds, given["ds_max"])
+    if "ds_min" not in given and "ds" in given:
+        given["ds_min"] = min(Settings().ds_min, given["ds"])
+    return Settings(**given)

@@ -1,7 +1,7 @@
 """Systems of equations G(x, y) = 0 whose solutions are points or curves: equilibria with conditions on them.
 
 The unknowns are the state x and the vector y = (free parameters, auxiliary unknowns of the conditions). The
-equations are f(x, p) = 0 and those of the conditions (`defining.py`). With one more unknown than equations the
+equations are f(x, p) = 0 and those of the conditions (`defining`). With one more unknown than equations the
 solutions form a curve; with as many, a special point. Unknowns are scaled throughout: a step is
 (dx / state_scale, dy), and a parameter's coordinate runs over about one unit within its bounds.
 """
