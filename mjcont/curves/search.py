@@ -117,11 +117,12 @@ def _prepare(problem: Any, values: dict[str, float], region: Region | None) -> _
 
 
 def _parameter_values(problem: Any, params: Mapping[str, float] | Point | None) -> dict[str, float]:
-    if isinstance(params, Point):
-        return problem.values({k: v for k, v in params.parameters.items() if k in problem.parameters or ":" in k})
-    if params is not None and not isinstance(params, Mapping):
+    if params is not None and not isinstance(params, Mapping | Point):
         raise ParameterError(f"params must be a dict of parameter values or a point, got {type(params).__name__}")
-    return problem.values(params)
+    if isinstance(params, Point):
+        params = {k: v for k, v in params.parameters.items() if k in problem.parameters or ":" in k}
+    values: dict[str, float] = problem.values(params)
+    return values
 
 
 def _ranges(problem: Any, region: Region | None) -> dict[str, tuple[float, float]]:

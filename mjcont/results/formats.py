@@ -15,8 +15,9 @@ from mjcont.results.files import FORMAT_VERSION, read_problem
 
 # What h5py, json and our own reading raise on files with parts missing or overwritten.
 _DAMAGED = (KeyError, IndexError, ValueError, TypeError, AttributeError, OSError, RuntimeError, MjcontError)
-# A branch states the kind of its curve: "equilibria", "LP locus", ...
-READERS: Mapping[str, Callable[[h5py.File, Any], Any]] = {
+Reader = Callable[[h5py.File, Any], Any]
+# A branch states the kind of its curve instead: "equilibria", "LP locus", ...
+READERS: Mapping[str, Reader] = {
     histories.KIND: histories.read,
     loadpaths.KIND: loadpaths.read,
     sweeps.KIND: sweeps.read,
@@ -48,7 +49,8 @@ def load(path: str | Path, problem: Any = None) -> Any:
                     f"result file '{path}' has format version {version}; this mjcont reads up to "
                     f"{FORMAT_VERSION}: upgrade mjcont"
                 )
-            return READERS.get(str(f.attrs["kind"]), read_branch)(f, read_problem(f, problem))
+            read: Reader = READERS.get(str(f.attrs["kind"]), read_branch)
+            return read(f, read_problem(f, problem))
         except ResultFileError:
             raise
         except _DAMAGED as error:

@@ -40,13 +40,13 @@ class SpecialMap:
     @property
     def exists(self) -> Array:
         """Where the point was reached, bool in the grid's shape."""
-        return np.vectorize(lambda p: p is not None, otypes=[bool])(self.points)
+        return np.asarray(np.vectorize(lambda p: p is not None, otypes=[bool])(self.points))
 
     def __getitem__(self, name: str) -> Array:
         """Return a parameter or observable of the points, NaN where there is none, in the grid's shape."""
         if name not in self.point.parameters and name not in self.point.observables:
             raise unknown_name("quantity", name, [*self.point.free, *self.point.observables])
-        return np.vectorize(lambda p: math.nan if p is None else p[name], otypes=[float])(self.points)
+        return np.asarray(np.vectorize(lambda p: math.nan if p is None else p[name], otypes=[float])(self.points))
 
     def largest(self, name: str, *, smallest: bool = False) -> SpecialPoint:
         """Return the point at which a quantity is largest on the grid (or smallest)."""

@@ -74,7 +74,7 @@ class Sensitivities:
     @property
     def changes(self) -> Array:
         """First-order change of each quantity for each parameter's tolerance."""
-        return self.derivatives * np.array([self.tolerances[n] for n in self.parameters])[:, None]
+        return np.asarray(self.derivatives * np.array([self.tolerances[n] for n in self.parameters])[:, None])
 
     def predict(self, changes: Mapping[str, float]) -> dict[str, float]:
         """Return the quantities, to first order, after parameters change by the amounts given."""
