@@ -108,9 +108,9 @@ def _close_curves(branches: dict[float, mc.Branch], rigid: Rigid) -> list[Findin
             worst[1e2][0] < LINE_WIDTH,
         ),
         Finding(
-            "With stiffer joints the curve tends to the analytical solution.",
+            "With stiffer joints the curve tends to the analytical solution, and is identical to the eye at 1000 N/m.",
             f"at most {shown[1]} and {shown[2]}",
-            worst[1e2][0] > worst[1e3][0] > worst[1e6][0],
+            min(LINE_WIDTH, worst[1e2][0]) > worst[1e3][0] > worst[1e6][0],
         ),
     ]
 
