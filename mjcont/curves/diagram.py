@@ -16,7 +16,7 @@ from mjcont.curves.continuation import (
     make_settings,
 )
 from mjcont.curves.walkers import equilibrium_walker
-from mjcont.errors import BoundsError, MjcontError
+from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.numerics.equations.newton import correct, solve
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import Settings
@@ -63,6 +63,7 @@ class Diagram:
         return "\n".join([*lines, *self.notes])
 
 
+@np.errstate(all="ignore")
 def switch_branches(
     point: SpecialPoint,
     bounds: tuple[float, float] | None = None,
@@ -133,7 +134,7 @@ def _through(
         if isinstance(first, str):
             halves.append(Trace([], [], End(Status.NO_START, f"the branch could not be entered: {first}")))
             continue
-        halves.append(trace(walker, first, reporter(system, progress)))
+        halves.append(trace(walker, first, reporter(system, progress), [e for h in halves for e in h.special]))
     if not any(h.points for h in halves):
         return None
     local = system.local(x, y)
@@ -170,6 +171,7 @@ def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool
     return True
 
 
+@np.errstate(all="ignore")
 def bifurcation_diagram(
     problem: Any,
     parameter: str,
@@ -186,12 +188,16 @@ def bifurcation_diagram(
     Parameters
     ----------
     starts : a start (dict or point), or several; default the model's own values and pose.
-    keyframes : further starts by keyframe, all at the first start's parameters.
+    keyframes : further starts by keyframe, all at the first start's parameters, or the model's without one.
     max_branches : limit on the number of branches.
     """
     first: Sequence[Any] = [starts] if starts is None or isinstance(starts, Mapping | Point) else list(starts)
+    if not first and not keyframes:
+        raise ParameterError("starts is empty: give a start, or leave it out for the model's own values and pose")
+    if max_branches < 1:
+        raise ParameterError(f"max_branches must be at least 1, got {max_branches}")
     tries: list[tuple[Any, str | None]] = [(s, None) for s in first] if not keyframes or starts is not None else []
-    tries += [(first[0], k) for k in keyframes]
+    tries += [(first[0] if first else None, k) for k in keyframes]
     branches: list[Branch] = []
     notes: list[str] = []
     for start, keyframe in tries:
