@@ -8,7 +8,7 @@ import pytest
 from problems.reference import BOUNDS, START
 
 import mjcont as mc
-from mjcont.numerics import guard
+from mjcont.numerics.walk import guard
 
 guard.raise_unexpected(True)  # what a user meets as a status is a failure here
 
