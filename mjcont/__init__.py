@@ -12,7 +12,6 @@ Names are loaded when they are first used, so that importing mjcont is quick.
 """
 
 import importlib as _importlib
-from importlib import metadata as _metadata
 from typing import TYPE_CHECKING
 from typing import Any as _Any
 
@@ -109,11 +108,6 @@ _HOMES = {
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
 
-try:
-    __version__ = _metadata.version("mjcont")
-except _metadata.PackageNotFoundError:
-    __version__ = "0.0.0"
-
 __all__ = [
     "Barrier",
     "BarrierCurve",
@@ -188,7 +182,9 @@ __all__ = [
 
 
 def __getattr__(name: str) -> _Any:
-    """Load a public name from its module on first use."""
+    """Load a public name from its module on first use; the version comes from what is installed."""
+    if name == "__version__":
+        return _version()
     if name not in _HOME:
         raise AttributeError(f"module 'mjcont' has no attribute '{name}'")
     return getattr(_importlib.import_module(_HOME[name]), name)
@@ -197,3 +193,12 @@ def __getattr__(name: str) -> _Any:
 def __dir__() -> list[str]:
     """List the public names."""
     return sorted(__all__)
+
+
+def _version() -> str:
+    from importlib import metadata
+
+    try:
+        return metadata.version("mjcont")
+    except metadata.PackageNotFoundError:
+        return "0.0.0"
