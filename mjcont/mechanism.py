@@ -75,6 +75,7 @@ class Mechanism(Observed):
         geometry: Geometry | None = None,
     ) -> None:
         features.refuse_unsupported(model)
+        features.refuse_invalid(model)
         self.notes = (*notes, *features.friction_notes(model, friction), *features.activation_notes(model))
         model = loading.owned_copy(model)
         self.mjcf = mjcf
@@ -126,7 +127,9 @@ class Mechanism(Observed):
     @classmethod
     def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
         """Take an `MjSpec` (copied)."""
-        return cls(loading.compile_spec(spec), exact_text(spec), friction, geometry=Geometry(spec.copy()))
+        notes: list[str] = []
+        model = loading.compile_spec(spec, notes)
+        return cls(model, exact_text(spec), friction, notes, Geometry(spec.copy()))
 
     @classmethod
     def from_model(cls, model: mujoco.MjModel, *, friction: str = "frictionless") -> Mechanism:

@@ -11,6 +11,7 @@ import numpy as np
 from mjcont.errors import unknown_name
 from mjcont.numerics.problem import Array, Values
 from mjcont.quantities import Observable, Parameter
+from mjcont.quiet import quiet_data
 from mjcont.rows import Rows
 from mjcont.writer import FieldWriter
 
@@ -30,7 +31,7 @@ class Readings:
     ) -> None:
         self._model, self._parameters, self._writer = model, parameters, writer
         self._constrained = constrained
-        self._data = mujoco.MjData(model)
+        self._data = quiet_data(model)
         self._rows: Rows | None = None
 
     def read(

@@ -17,7 +17,7 @@ from mjcont.numerics.differences import (
     jacobian_steps,
 )
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
-from mjcont.quantities import Observable, Parameter, default_bounds
+from mjcont.quantities import Observable, Parameter, check_number, default_bounds
 
 
 class VectorField:
@@ -70,6 +70,10 @@ class VectorField:
             k: Parameter(k, units.get(k, ""), float(v), bounds.get(k, default_bounds(float(v))), "field")
             for k, v in parameters.items()
         }
+        for parameter in self.parameters.values():
+            parameter.check(parameter.value)
+        if not np.all((self.state_scale > 0) & np.isfinite(self.state_scale)):
+            raise ParameterError(f"scale: typical sizes must be positive numbers, got {self.state_scale.tolist()}")
         labels = list(names) if names is not None else [f"u[{i}]" for i in range(self.n)]
         if len(labels) != self.n:
             raise ParameterError(f"names: expected {self.n} names for the components of u, got {len(labels)}")
@@ -88,9 +92,7 @@ class VectorField:
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the defaults for the others."""
         for name, value in (given or {}).items():
-            self.parameter(name)
-            if not np.isfinite(value):
-                raise ParameterError(f"parameter '{name}': the value must be a finite number, got {value}")
+            self.parameter(name).check(value)
         return {n: p.value for n, p in self.parameters.items()} | {n: float(v) for n, v in (given or {}).items()}
 
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
@@ -100,6 +102,8 @@ class VectorField:
         x = self.u0.copy() if state is None else np.array(state, dtype=float)
         if x.shape != (self.n,):
             raise ParameterError(f"state must have shape ({self.n},), got {x.shape}")
+        for i, (label, _) in enumerate(self.state_labels):
+            check_number(f"state: {label}", float(x[i]))
         return x
 
     # -- the problem -----------------------------------------------------------------------------------------

@@ -15,6 +15,7 @@ from mjcont.inputs import INPUT_FIELDS, DataInputs
 from mjcont.parameters import GRAVITY_ANGLE, LOAD_FACTOR, setting
 from mjcont.paths import field_array
 from mjcont.quantities import Parameter
+from mjcont.quiet import quiet
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,7 +179,8 @@ class FieldWriter:
             model_changed |= any(p.kind in ("field", "switch", "gravity") for p in members)
         self.inputs.settle()
         if constants:
-            mujoco.mj_setConst(self.model, self._data)
+            with quiet:
+                mujoco.mj_setConst(self.model, self._data)
         self.version += model_changed
 
     def _group(self, parameters: Mapping[str, Parameter], name: str) -> tuple[str, ...]:
