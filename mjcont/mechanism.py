@@ -26,7 +26,7 @@ from mjcont.evaluation import Evaluator
 from mjcont.geometry import Geometry, refuse_overlap
 from mjcont.mjcf import exact_text
 from mjcont.numerics.differences import Stencil
-from mjcont.numerics.problem import Array, Linearization, Pencil, Values
+from mjcont.numerics.problem import Array, Linearization, Pencil, Range, Ranges, Values
 from mjcont.observables import model_observables
 from mjcont.parameters import Declaration, collect_parameters, declared_parameter
 from mjcont.paths import bush_names
@@ -223,10 +223,10 @@ class Mechanism(Observed):
         return self._derivatives.along(states, values, name, column)
 
     def linearize_along(
-        self, states: Array, values: Values, name: str, column: Array
+        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
     ) -> tuple[Array, Array, Array] | None:
         """Return the residual and its derivatives in the state and in a parameter; arguments as `residuals_along`."""
-        return None if self._held else self._derivatives.linearize_along(states, values, name, column)
+        return None if self._held else self._derivatives.linearize_along(states, values, name, column, bounds)
 
     def acceleration(self, qpos: Array, qvel: Array, values: Values | None = None) -> Array:
         """Return qacc at a state of motion, (nv,), in m/s^2 and rad/s^2."""
@@ -234,20 +234,20 @@ class Mechanism(Observed):
         return self._evaluator.accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
 
     def linearize(
-        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
+        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
     ) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
         refuse_overlap(self.parameters, values, tuple(wrt))
-        found = self._derivatives.linearize(x, values, wrt, accurate, spans)
+        found = self._derivatives.linearize(x, values, wrt, accurate, ranges)
         if not self._held:
             return found
         mass = self._evaluator.mass(x)
         held = rigid.rate(found.jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
         return Linearization(found.f, found.jac - held, found.par)
 
-    def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
+    def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""
-        return self._derivatives.rule(name, value, span)
+        return self._derivatives.rule(name, value, bounds)
 
     def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
         """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
