@@ -298,6 +298,24 @@ def turning_fraction(system: System, old: CurvePoint, new: CurvePoint, index: in
     return inside[0] if len(inside) == 1 else 0.5
 
 
+def may_turn_beyond(system: System, old: CurvePoint, new: CurvePoint) -> bool:
+    """Whether a free parameter may leave its bounds and come back between two points within them.
+
+    Judged on the cubic through both, which is not trusted by more than what it goes beyond the points.
+    """
+    for i in range(len(system.free)):
+        a, b = float(old.tangent[system.n + i]), float(new.tangent[system.n + i])
+        if a * b >= 0.0:
+            continue
+        bound = system.highest[i] if a > 0.0 else system.lowest[i]
+        _, p, q = _slope(system, old, new, i)
+        t = turning_fraction(system, old, new, i)
+        ahead = abs((a + (p + q * t / 3.0) * t) * t * (new.s - old.s))
+        if abs(bound - old.y[i]) <= 2.0 * ahead:
+            return True
+    return False
+
+
 def by_contraction(new: CurvePoint, growth: float = _GROWTH) -> float:
     """Return the factor by which the contraction of the corrector lets the step grow."""
     return math.sqrt(_CONTRACTION / max(new.contraction, 1e-3)) if new.iterations > 1 else growth

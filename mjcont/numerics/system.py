@@ -62,7 +62,7 @@ class Free:
             value = math.exp(min(coordinate * math.log(self.high / self.low), 700.0))
         else:
             value = coordinate * (self.high - self.low)
-        return min(max(value, self.low), self.high) if self.bounded else value  # the ends exactly, not to rounding
+        return min(max(value, self.low), self.high) if self.bounded else value  # no bound is left by rounding
 
     def values(self, coordinates: Array) -> Array:
         """Return the values at many coordinates."""

@@ -12,7 +12,17 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.numerics.arclength import CurvePoint, advance, aim, by_contraction, land, may_turn_twice, next_step, predict
+from mjcont.numerics.arclength import (
+    CurvePoint,
+    advance,
+    aim,
+    by_contraction,
+    land,
+    may_turn_beyond,
+    may_turn_twice,
+    next_step,
+    predict,
+)
 from mjcont.numerics.corner import NEAR, cross
 from mjcont.numerics.events import Detector, Located, Retry
 from mjcont.numerics.interior import Interior
@@ -24,7 +34,7 @@ from mjcont.numerics.stability import tell
 from mjcont.numerics.steps import End, Leap, Status, Step
 from mjcont.numerics.system import System
 
-# below this step a pair of folds is not looked for between two points
+# below this step a pair of folds, or a fold beyond a bound, is not looked for between two points
 _SMALL_FOLDS = 1e-5
 # a curve that ends on the bound where it is already adds no second point there
 _SAME_POINT = 1e-9
@@ -284,6 +294,8 @@ class Walker:
             if detector.changed(old, new):
                 located += detector.locate(old, new, located)
         located = _distinct(located)
+        if not located and new.s - old.s > _SMALL_FOLDS and may_turn_beyond(self.system, old, new):
+            raise Retry("a parameter may turn beyond its bound")
         return sorted(located, key=lambda e: e.point.s)
 
     def _periods(self, start: CurvePoint) -> Array:
