@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
@@ -21,6 +20,7 @@ from mjcont.numerics.points.on_equilibria import square_system
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch, Point, show
+from mjcont.results.quantities import LARGEST
 
 
 def make_settings(options: Mapping[str, Any]) -> Settings:
@@ -56,18 +56,20 @@ def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) ->
         raise BoundsError(f"'{name}' is a switch, 0 or 1, and cannot vary along a curve: give it as a start value")
     if bounds is None:
         own, hard = parameter.bounds, parameter.hard_bounds
-        return max(own[0], hard[0]), min(own[1], hard[1])
+        bounds = max(own[0], hard[0]), min(own[1], hard[1])
     try:
         low, high = (float(b) for b in bounds)
     except (TypeError, ValueError) as error:
         raise BoundsError(f"bounds of {name} must be two numbers (low, high), got {bounds!r}") from error
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise BoundsError(f"bounds of {name} must be finite with low < high, got ({low:g}, {high:g})")
+    if not (-LARGEST <= low < high <= LARGEST):
+        raise BoundsError(
+            f"bounds of {name} must be finite with low < high, within +-{LARGEST:g}, got ({low:g}, {high:g})"
+        )
     hard_low, hard_high = parameter.hard_bounds
     if low < hard_low or high > hard_high:
         raise BoundsError(
             f"bounds ({low:g}, {high:g}) of {name} leave {parameter.limits}: narrow the bounds"
-            + ("" if parameter.springs else " or widen the range in the XML")
+            + (" or widen the range in the XML" if parameter.kind in ("control", "input") else "")
         )
     return low, high
 

@@ -10,6 +10,7 @@ from mjcont.mechanism.dampers import Dampers
 from mjcont.mechanism.kinks import Kinks
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.numerics.equations.problem import Array
+from mjcont.quiet import Warned
 
 _MAX_BATCHES = 32
 _ACCELERATION_STEPS = (1e-3, 1e-6)
@@ -35,6 +36,7 @@ class Evaluator:
         self._dampers = None if self.nonsmooth else Dampers.of(model)
         self._batches: dict[int, Rows] = {}
         self._data = mujoco.MjData(model)
+        self._warned = Warned(self._data)
         self._forces = self._data.qfrc_smooth[None]
 
     def _rows(self, count: int) -> Rows:
@@ -65,7 +67,7 @@ class Evaluator:
         self.writer.inputs.put(self._data)
         self._data.qpos[:] = x
         mujoco.mj_forward(self.model, self._data)
-        return self._forces
+        return self._forces if self._warned.spoilt() is None else np.full_like(self._forces, np.nan)
 
     @property
     def sides(self) -> list[bytes]:

@@ -12,6 +12,7 @@ from mjcont.errors import unknown_name
 from mjcont.mechanism.batches import Rows
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.quiet import quiet_data
 from mjcont.results.quantities import Observable, Parameter
 
 # rows of a batch, and the number of states from which on it pays
@@ -30,7 +31,7 @@ class Readings:
     ) -> None:
         self._model, self._parameters, self._writer = model, parameters, writer
         self._constrained = constrained
-        self._data = mujoco.MjData(model)
+        self._data = quiet_data(model)
         self._rows: Rows | None = None
 
     def read(

@@ -14,6 +14,7 @@ from mjcont.mechanism.geometry import Geometry, NotCompiled, copy_geometry
 from mjcont.mechanism.inputs import INPUT_FIELDS, DataInputs
 from mjcont.mechanism.parameters import GRAVITY_ANGLE, LOAD_FACTOR, setting
 from mjcont.mechanism.paths import field_array
+from mjcont.quiet import quiet
 from mjcont.results.quantities import Parameter
 
 
@@ -178,7 +179,8 @@ class FieldWriter:
             model_changed |= any(p.kind in ("field", "switch", "gravity") for p in members)
         self.inputs.settle()
         if constants:
-            mujoco.mj_setConst(self.model, self._data)
+            with quiet:
+                mujoco.mj_setConst(self.model, self._data)
         self.version += model_changed
 
     def _group(self, parameters: Mapping[str, Parameter], name: str) -> tuple[str, ...]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import copy
 import math
 import re
-import warnings
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,6 +20,8 @@ from mjcont.models.equalities import describe_equalities
 from mjcont.models.features import touching
 from mjcont.models.mjcf import exact_text
 from mjcont.models.topology import describe_topology
+from mjcont.quiet import heard
+from mjcont.results.quantities import check_number
 from mjcont.results.text import number, table, unit_shown
 
 if TYPE_CHECKING:
@@ -63,9 +64,10 @@ def read_source(source: str | Path) -> tuple[str, Path | None]:
 def parse(text: str, folder: Path | None, label: str) -> mujoco.MjSpec:
     """Return the spec of an XML text; relative files are looked up in `folder`."""
     try:
-        if folder is not None and _OTHER_FILES.search(text):
-            return mujoco.MjSpec.from_file(label)
-        spec = mujoco.MjSpec.from_string(text)
+        with heard():
+            if folder is not None and _OTHER_FILES.search(text):
+                return mujoco.MjSpec.from_file(label)
+            spec = mujoco.MjSpec.from_string(text)
     except (ValueError, mujoco.FatalError) as error:
         raise ModelError(f"model {label}: MuJoCo rejects it: {_one_line(error)}") from error
     if folder is not None:
@@ -73,12 +75,17 @@ def parse(text: str, folder: Path | None, label: str) -> mujoco.MjSpec:
     return spec
 
 
-def compile_spec(spec: mujoco.MjSpec) -> mujoco.MjModel:
-    """Compile a spec, turning MuJoCo's error into ours."""
+def compile_spec(spec: mujoco.MjSpec, notes: list[str] | None = None) -> mujoco.MjModel:
+    """Compile a spec, turning MuJoCo's error into ours and adding what it warns of to `notes`."""
+    told: list[str] = []
     try:
-        return spec.compile()
+        with heard() as told:
+            return spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise ModelError(f"model '{spec.modelname}': MuJoCo cannot compile it: {_one_line(error)}") from error
+    finally:
+        if notes is not None:
+            notes += (f"MuJoCo: {message}" for message in told)
 
 
 def load(source: str | Path) -> tuple[mujoco.MjModel, str, tuple[str, ...], Geometry]:
@@ -87,19 +94,18 @@ def load(source: str | Path) -> tuple[mujoco.MjModel, str, tuple[str, ...], Geom
     The XML is the text as written, or flattened where it needs other files; what needs a missing file is left out.
     """
     text, folder = read_source(source)
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        spec = parse(text, folder, "XML text" if folder is None else str(source))
-        place = (folder or Path()).resolve()
-        notes, dropped = assets.read_notes(spec), assets.drop_missing(spec, place)
-        rewritten = assets.anchor_files(spec, place) or bool(dropped) or bool(_OTHER_FILES.search(text))
+    spec = parse(text, folder, "XML text" if folder is None else str(source))
+    place = (folder or Path()).resolve()
+    kept, dropped = assets.read_notes(spec), assets.drop_missing(spec, place)
+    rewritten = assets.anchor_files(spec, place) or bool(dropped) or bool(_OTHER_FILES.search(text))
+    told: list[str] = []
+    model = compile_spec(spec, told)
+    notes = tuple(dict.fromkeys((*kept, *dropped, *told)))
+    if rewritten:
+        assets.write_notes(spec, notes)
+        text = exact_text(spec)
+        spec, place = parse(text, None, "with everything it includes"), Path()
         model = compile_spec(spec)
-        notes = tuple(dict.fromkeys((*notes, *dropped, *(f"MuJoCo: {_one_line(w.message)}" for w in caught))))
-        if rewritten:
-            assets.write_notes(spec, notes)
-            text = exact_text(spec)
-            spec, place = parse(text, None, "with everything it includes"), Path()
-            model = compile_spec(spec)
     return model, text, notes, Geometry(spec, place if folder is not None and not rewritten else None)
 
 
@@ -126,10 +132,7 @@ def start_state(
     """Return a start: the state given, or a keyframe's, or qpos0."""
     m: Any = mechanism
     if state is not None:
-        x = np.array(state, dtype=float)
-        if x.shape != (m.nq,):
-            raise ParameterError(f"state must have shape ({m.nq},) for model '{m.name}', got {x.shape}")
-        return x
+        return checked_state(m.simulation_model(), state)
     if keyframe is None:
         return np.array(m.qpos0)
     if keyframe not in m.keyframes:
@@ -217,6 +220,8 @@ def checked_state(model: mujoco.MjModel, state: Any) -> np.ndarray:
     x = np.array(state, dtype=float)
     if x.shape != (model.nq,):
         raise ParameterError(f"state must have shape ({model.nq},) for model '{model_name(model)}', got {x.shape}")
+    for (label, _), value in zip(state_labels(model), x.tolist(), strict=True):
+        check_number(f"state: {label}", value)
     return x
 
 

@@ -10,6 +10,8 @@ from typing import Any
 from mjcont.errors import BoundsError, ParameterError
 
 FRICTION = ("frictionless", "refuse")
+# products of a few larger numbers overflow
+LARGEST = 1e100
 
 # fields in which the forces are affine, so that two points give an exact derivative
 _AFFINE = frozenset(
@@ -73,9 +75,9 @@ class Parameter:
     targets : tuple of Target
         Empty for gravity_angle and load_factor, which act together on the gravity vector, and for "spec".
     hard_bounds : tuple of float
-        An input's range in MuJoCo, outside which it would be clamped.
+        Outside this range there is no such model, or MuJoCo would take another value.
     limit : str
-        The words for that range.
+        The words for that range, {range} in the place of its numbers.
     edit : callable, optional
         Of kind "spec": writes a value into a copy of the model's spec, which is then compiled.
     source : str
@@ -121,7 +123,7 @@ class Parameter:
         if self.springs:
             return "the positive numbers, where a constraint is a spring"
         low, high = self.hard_bounds
-        return f"{self.limit} [{low:g}, {high:g}], where MuJoCo would clamp it"
+        return self.limit.format(range=f"[{low:g}, {high:g}]")
 
     @property
     def springs(self) -> bool:
@@ -149,8 +151,7 @@ class Parameter:
 
     def check(self, value: float) -> None:
         """Raise unless the model can have this value: ParameterError, or BoundsError where MuJoCo would clamp it."""
-        if not math.isfinite(value):
-            raise ParameterError(f"parameter '{self.name}': the value must be a finite number, got {value}")
+        check_number(f"parameter '{self.name}': the value", value)
         if self.kind == "switch" and value not in (0.0, 1.0):
             raise ParameterError(f"parameter '{self.name}' is a switch: its value must be 0 or 1, got {value:g}")
         low, high = self.hard_bounds
@@ -174,6 +175,13 @@ class Observable:
     unit: str
     function: Callable[[Any, Any], float]
     source: tuple[str, int] | None = None
+
+
+def check_number(what: str, value: float) -> None:
+    """Raise a ParameterError that names `what` unless a value is a number with which one can compute."""
+    if not abs(value) <= LARGEST:
+        size = " larger than 1e100 (products of such numbers overflow)" if math.isfinite(value) else ""
+        raise ParameterError(f"{what} must be a finite number, got {value:g}{size}")
 
 
 def default_bounds(value: float, unit: str = "") -> tuple[float, float]:

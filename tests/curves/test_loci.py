@@ -6,13 +6,13 @@ forms: Kuznetsov, Elements of Applied Bifurcation Theory, 3rd ed., chapter 8.
 
 from __future__ import annotations
 
-import itertools
 import math
 from functools import cache
 
 import numpy as np
 import pytest
-from problems.fields import ab, branch_of_ab, branch_of_brusselator, cusp
+from problems.fields import branch_of_brusselator, cusp
+from problems.loci import folds_of_ab, hopfs_of_ab, kinds, only
 from problems.reference import ELASTIC_FOLDS
 
 import mjcont as mc
@@ -21,21 +21,7 @@ UPPER, LOWER = 0, 1
 FOLD_LABELS = {UPPER: "LP2", LOWER: "LP1"}
 
 
-def kinds(branch):
-    return [p.kind for p in branch.special_points]
-
-
-def only(branch, kind):
-    (point,) = branch.of_kind(kind)
-    return point
-
-
 # -- folds of ab in (D, B) ------------------------------------------------------------------------------------
-
-
-@cache
-def folds_of_ab(label="LP1"):
-    return mc.continue_special(branch_of_ab(18.0).point(label), "B", bounds=(8.0, 40.0))
 
 
 def test_the_fold_curve_of_ab_has_one_cusp_and_one_bogdanov_takens_point_and_nothing_else():
@@ -78,11 +64,6 @@ def test_points_of_a_fold_curve_say_how_well_they_are_located():
 
 
 # -- Hopf points of ab in (D, B) ------------------------------------------------------------------------------
-
-
-@cache
-def hopfs_of_ab(label="HB2", high=24.0, **options):
-    return mc.continue_special(branch_of_ab(18.0).point(label), "B", bounds=(8.0, high), **options)
 
 
 def test_the_hopf_curve_of_ab_has_one_bogdanov_takens_and_one_generalised_hopf_point_and_nothing_else():
@@ -304,130 +285,6 @@ def test_the_branch_point_of_a_scalar_pitchfork_does_not_persist_under_an_imperf
     assert "does not persist" in locus.message
 
 
-# -- zero-Hopf and double Hopf normal forms -----------------------------------------------------------------------
-
-SPACE = np.array([[1.0, 0.5, 0.0], [-0.3, 1.0, 0.4], [0.2, -0.6, 1.0]])
-SHIFT = np.array([0.7, -0.4, 0.2])
-OMEGA = 2.0
-
-
-def zero_hopf(s, a, c):
-    """x' = b1 + x^2 + s r^2, growth of the oscillation b2 + a x - c r^2, seen through a linear change of coordinates.
-
-    Folds at b1 = 0; Hopf points at x = -b2 / a, b1 = -x^2, where l1 is in proportion to -a s / (2 x) - c: it has a
-    pole at the zero-Hopf point b1 = b2 = 0 and vanishes at x = -a s / (2 c).
-    """
-    back = np.linalg.inv(SPACE)
-
-    def f(u, p):
-        x, y, z = back @ (u - SHIFT)
-        r2 = y * y + z * z
-        growth = p["b2"] + a * x - c * r2
-        return SPACE @ [p["b1"] + x * x + s * r2, growth * y - OMEGA * z, OMEGA * y + growth * z]
-
-    return mc.VectorField(f, SHIFT + SPACE @ [-1.0, 0.0, 0.0], {"b1": -1.0, "b2": 0.3})
-
-
-@cache
-def zero_hopf_branch(s, a, c):
-    return mc.continue_equilibria(zero_hopf(s, a, c), "b1", bounds=(-1.5, 1.0))
-
-
-FORMS = [(1.0, 1.0, 0.0), (-1.0, 2.0, -2.0)]
-
-
-@pytest.mark.parametrize("form", FORMS)
-def test_a_fold_curve_has_one_zero_hopf_point_and_nothing_else(form):
-    locus = mc.continue_special(only(zero_hopf_branch(*form), "LP"), "b2", bounds=(-0.6, 0.6))
-    (point,) = locus.special_points
-    assert point.kind == "ZH"
-    assert [point["b1"], point["b2"]] == pytest.approx([0.0, 0.0], abs=1e-8)
-    assert point.coefficients["omega"] == pytest.approx(OMEGA, rel=1e-8)
-
-
-@pytest.mark.parametrize("form", FORMS)
-def test_the_pole_of_l1_at_a_zero_hopf_point_is_no_generalised_hopf_point(form):
-    locus = mc.continue_special(only(zero_hopf_branch(*form), "HB"), "b2", bounds=(-0.6, 0.6))
-    (point,) = locus.special_points
-    assert point.kind == "ZH"
-    assert [point["b1"], point["b2"]] == pytest.approx([0.0, 0.0], abs=1e-8)
-
-
-def test_a_generalised_hopf_point_beside_a_zero_hopf_point_is_found():
-    locus = mc.continue_special(only(zero_hopf_branch(1.0, 1.0, 1.0), "HB"), "b2", bounds=(-0.8, 0.8))
-    assert sorted(kinds(locus)) == ["GH", "ZH"]
-    point = only(locus, "GH")
-    assert [point["b1"], point["b2"]] == pytest.approx([-0.25, 0.5], rel=1e-8)
-
-
-def test_the_hopf_curve_of_the_zero_hopf_normal_form_follows_its_closed_form():
-    locus = mc.continue_special(only(zero_hopf_branch(*FORMS[0]), "HB"), "b2", bounds=(-0.6, 0.6), lyapunov=False)
-    assert locus["b1"] == pytest.approx(-locus["b2"] ** 2, abs=1e-8)
-
-
-@pytest.mark.parametrize(("s", "a", "c"), FORMS)
-def test_zero_hopf_coefficients_are_those_of_the_normal_form(s, a, c):
-    locus = mc.continue_special(only(zero_hopf_branch(s, a, c), "LP"), "b2", bounds=(-0.6, 0.6))
-    point = only(locus, "ZH")
-    assert point.coefficients["s"] == s
-    assert point.coefficients["theta"] == pytest.approx(a / 2.0, rel=1e-6)
-
-
-HYPERSPACE = np.array([[1.2, 0.3, 0.1, -0.5], [0.4, 1.2, 0.2, 0.2], [0.1, 0.1, 1.0, 0.2], [-0.3, -0.1, -0.2, 1.2]])
-FREQUENCIES = (1.0, math.sqrt(7.0))
-# mu = nu^2 and mu = 1 - nu
-MEETING = (-1.0 + math.sqrt(5.0)) / 2.0
-
-
-def double_hopf():
-    """Two oscillations with growth mu - nu^2 and mu + nu - 1 about an equilibrium that moves with mu."""
-    back, way = np.linalg.inv(HYPERSPACE), np.array([0.3, -0.2, 0.5, 0.1])
-
-    def f(u, p):
-        z = back @ (u - p["mu"] * way)
-        r1, r2 = z[0] ** 2 + z[1] ** 2, z[2] ** 2 + z[3] ** 2
-        g1 = p["mu"] - p["nu"] ** 2 - r1 - 0.5 * r2
-        g2 = p["mu"] + p["nu"] - 1.0 - 0.3 * r1 - r2
-        (o1, o2) = FREQUENCIES
-        return HYPERSPACE @ [g1 * z[0] - o1 * z[1], o1 * z[0] + g1 * z[1], g2 * z[2] - o2 * z[3], o2 * z[2] + g2 * z[3]]
-
-    return mc.VectorField(f, np.zeros(4), {"mu": 0.0, "nu": 0.2})
-
-
-@cache
-def double_hopf_branch():
-    return mc.continue_equilibria(double_hopf(), "mu", bounds=(-1.0, 1.5))
-
-
-@pytest.mark.parametrize("label", ["HB1", "HB2"])
-def test_a_double_hopf_point_is_found_on_both_hopf_curves_and_nothing_else(label):
-    locus = mc.continue_special(double_hopf_branch().point(label), "nu", bounds=(0.0, 1.0))
-    (point,) = locus.special_points
-    assert point.kind == "HH"
-    assert [point["mu"], point["nu"]] == pytest.approx([1.0 - MEETING, MEETING], rel=1e-8)
-
-
-@pytest.mark.parametrize(("label", "own", "other"), [("HB1", 0, 1), ("HB2", 1, 0)])
-def test_a_double_hopf_point_states_both_frequencies(label, own, other):
-    locus = mc.continue_special(double_hopf_branch().point(label), "nu", bounds=(0.0, 1.0))
-    coefficients = only(locus, "HH").coefficients
-    assert coefficients["omega"] == pytest.approx(FREQUENCIES[own], rel=1e-8)
-    assert coefficients["omega2"] == pytest.approx(FREQUENCIES[other], rel=1e-8)
-
-
-def test_double_hopf_coefficients_are_those_of_the_normal_form():
-    locus = mc.continue_special(double_hopf_branch().point("HB1"), "nu", bounds=(0.0, 1.0))
-    coefficients = only(locus, "HH").coefficients
-    assert coefficients["theta"] == pytest.approx(0.5, rel=1e-6)
-    assert coefficients["delta"] == pytest.approx(0.3, rel=1e-6)
-
-
-@pytest.mark.parametrize(("label", "growth"), [("HB1", lambda m, n: m - n**2), ("HB2", lambda m, n: m + n - 1.0)])
-def test_hopf_curves_that_cross_each_other_are_followed_through_the_crossing(label, growth):
-    locus = mc.continue_special(double_hopf_branch().point(label), "nu", bounds=(0.0, 1.0), lyapunov=False)
-    assert growth(locus["mu"], locus["nu"]) == pytest.approx(0.0 * locus["mu"], abs=1e-8)
-
-
 # -- folds of the overcentre mechanism in (F, k_j) ----------------------------------------------------------------
 
 
@@ -476,115 +333,3 @@ def test_a_fold_curve_of_the_overcentre_is_followed_over_seven_decades_in_little
     overcentre_folds, which
 ):
     assert len(overcentre_folds(which)) < 110
-
-
-# -- starts and ends ----------------------------------------------------------------------------------------------
-
-
-def test_user_zeros_on_a_locus_are_located_to_1e_10():
-    locus = mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", bounds=(15.0, 30.0), zeros={"u": 0.2})
-    points = locus.of_kind("UZ")
-    assert [p["u"] for p in points] == pytest.approx([0.2], rel=1e-10)
-    assert [p["B"] for p in points] == pytest.approx([25.0], rel=1e-9)
-
-
-@pytest.mark.parametrize("direction", [1, -1])
-def test_a_locus_in_one_direction_first_moves_its_new_parameter_that_way(direction):
-    point = branch_of_ab(18.0).point("LP1")
-    locus = mc.continue_special(point, "B", bounds=(15.0, 22.0), direction=direction)
-    away = locus["B"][locus.start_index + 1 :] if direction > 0 else locus["B"][: locus.start_index][::-1]
-    assert locus["B"][locus.start_index] == pytest.approx(18.0, rel=1e-10)
-    assert (away[0] - 18.0) * direction > 0
-
-
-def test_a_locus_ends_at_a_kind_of_point_that_is_named():
-    locus = mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", bounds=(8.0, 40.0), end_at=["CP"], direction=-1)
-    assert locus.status == "at special point"
-    assert kinds(locus) == ["CP"]
-
-
-def test_a_locus_keeps_the_bounds_of_the_first_parameter_unless_others_are_given():
-    point = branch_of_ab(18.0).point("LP1")
-    assert mc.continue_special(point, "B", bounds=(17.0, 19.0)).free["D"] == (0.0, 0.6)
-    wider = mc.continue_special(point, "B", bounds={"B": (17.0, 19.0), "D": (0.0, 1.0)})
-    assert wider.free["D"] == (0.0, 1.0)
-
-
-def test_the_same_locus_is_the_same_to_the_bit():
-    once, again = (mc.continue_special(branch_of_ab(18.0).point("HB2"), "B", bounds=(10.0, 20.0)) for _ in range(2))
-    assert np.array_equal(once.states, again.states)
-    assert np.array_equal(once["D"], again["D"])
-    assert [p.coefficients for p in once.special_points] == [p.coefficients for p in again.special_points]
-
-
-def test_points_of_a_locus_do_not_depend_on_the_step():
-    fine = mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", bounds=(8.0, 40.0), ds_max=0.01)
-    assert len(fine) > 1.5 * len(folds_of_ab())
-    for a, b in zip(fine.special_points, folds_of_ab().special_points, strict=True):
-        assert a.label == b.label
-        assert [a["D"], a["B"]] == pytest.approx([b["D"], b["B"]], rel=1e-9)
-
-
-# -- mistakes -----------------------------------------------------------------------------------------------------
-
-
-@cache
-def marked_ab():
-    return mc.continue_equilibria(ab(18.0), "D", bounds=(0.0, 0.1), zeros={"u": 0.1})
-
-
-def test_a_user_zero_has_no_curve_to_follow():
-    with pytest.raises(mc.MjcontError, match=r"kind UZ has no curve to follow.*LP, HB, BP, CP, BT, ZH"):
-        mc.continue_special(marked_ab().point("UZ1"), "B")
-
-
-def test_a_parameter_that_is_free_already_cannot_be_freed():
-    with pytest.raises(mc.ParameterError, match="D is already free on the curve of LP1"):
-        mc.continue_special(branch_of_ab(18.0).point("LP1"), "D")
-
-
-def test_bounds_of_a_parameter_that_is_not_free_are_refused():
-    bounds = {"B": (8.0, 40.0), "C": (0.0, 1.0)}
-    with pytest.raises(mc.ParameterError, match=r"bounds are given for 'C', which is not free here\. Free: D, B"):
-        mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", bounds)
-
-
-def test_bounds_that_exclude_the_special_point_are_refused():
-    with pytest.raises(mc.BoundsError, match=r"LP1 has B = 18, outside the bounds 20 \.\. 30"):
-        mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", (20.0, 30.0))
-
-
-@pytest.mark.parametrize("bounds", [(30.0, 10.0), (8.0, math.inf), (8.0, 8.0)])
-def test_bounds_of_a_locus_that_are_no_increasing_finite_pair_are_refused(bounds):
-    with pytest.raises(mc.BoundsError, match="bounds of B must be finite with low < high"):
-        mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", bounds)
-
-
-def test_an_unknown_parameter_of_a_locus_is_named_with_those_that_exist():
-    with pytest.raises(mc.NameLookupError, match=r"unknown parameter 'b'.*B"):
-        mc.continue_special(branch_of_ab(18.0).point("LP1"), "b")
-
-
-def test_an_unknown_option_of_a_locus_is_named_with_those_that_exist():
-    with pytest.raises(mc.NameLookupError, match=r"unknown option 'dsmax'.*Did you mean ds_max"):
-        mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", (8.0, 40.0), dsmax=0.1)
-
-
-def test_a_direction_of_a_locus_other_than_up_or_down_is_refused():
-    with pytest.raises(mc.ParameterError, match=r"direction must be None, \+1 or -1, got 0"):
-        mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", (8.0, 40.0), direction=0)
-
-
-def test_an_unknown_kind_to_end_at_is_refused():
-    with pytest.raises(mc.MjcontError, match="XX"):
-        mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", (8.0, 40.0), end_at=["XX"])
-
-
-def test_a_generalised_hopf_point_has_no_curve_to_follow():
-    with pytest.raises(mc.MjcontError, match="kind GH has no curve to follow"):
-        mc.continue_special(only(hopfs_of_ab(), "GH"), "B")
-
-
-def test_special_points_stand_in_order_along_a_locus():
-    rows = [p.index for p in folds_of_ab().special_points]
-    assert all(a < b for a, b in itertools.pairwise(rows))

@@ -16,7 +16,7 @@ DURATION = 2.0
 
 
 def overcentre_motion(force, times, start):
-    """Integrate the overcentre's energies from tests/reference.py, (samples, 6)."""
+    """Integrate the overcentre's energies from tests/problems/reference.py, (samples, 6)."""
     p = reference.PARAMETERS
     inverse = np.linalg.inv(reference.mass(p))
 
