@@ -48,8 +48,8 @@ thirdparty: env ## download models from other packages, in .thirdparty
 test-thirdparty: thirdparty ## the tests on models that none of us wrote
 	$(BIN)/pytest -q -n auto -m thirdparty
 
-bench: env ## measure speed beside a floor and peers, in out/benchmarks.json (minutes)
-	$(BIN)/python -m benchmarks -o out/benchmarks.json
+bench: env ## measure speed beside a floor and peers, in out/benchmarks.json (half an hour; QUICK=1: minutes)
+	$(BIN)/python -m benchmarks -o out/benchmarks.json $(if $(QUICK),--quick)
 
 clean: ## remove .venv, builds and caches; results in out/ stay
 	@if test -e $(STAMP) || test -e $(UNFINISHED); then rm -f $(STAMP) && rm -rf $(VENV); fi

@@ -10,9 +10,19 @@ import mjcont as mc
 from benchmarks.measure import seconds
 
 
-def python(code: str) -> float:
-    """Return how long a fresh interpreter takes for some code, in s."""
-    return seconds(lambda: subprocess.run([sys.executable, "-c", code], check=True, capture_output=True))
+def _output(*arguments: str) -> str:
+    """Run a fresh interpreter and return what it prints.
+
+    Raises
+    ------
+    RuntimeError
+        If it fails, with its last line.
+    """
+    done = subprocess.run([sys.executable, *arguments], capture_output=True, text=True, check=False)
+    if done.returncode:
+        lines = (done.stderr.strip() or done.stdout.strip()).splitlines()
+        raise RuntimeError(f"status {done.returncode}: {lines[-1] if lines else 'no message'}")
+    return done.stdout
 
 
 def import_time() -> float:
@@ -21,14 +31,12 @@ def import_time() -> float:
         "import time, numpy, mujoco; t = time.perf_counter(); import mjcont; "
         "mjcont.continue_equilibria; mjcont.Mechanism; print(time.perf_counter() - t)"
     )
-    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
-    return float(done.stdout)
+    return float(_output("-c", code))
 
 
 def command(*arguments: str) -> float:
     """Return how long a mjcont command takes, in s."""
-    call = [sys.executable, "-m", "mjcont", *arguments]
-    return seconds(lambda: subprocess.run(call, check=True, capture_output=True))
+    return seconds(lambda: _output("-m", "mjcont", *arguments))
 
 
 def inspect() -> float:
@@ -60,5 +68,4 @@ def memory(links: int) -> float:
         f"from benchmarks.cases import chain; chain({links}).run(); "
         "print(next(line.split()[1] for line in open('/proc/self/status') if line.startswith('VmHWM')))"
     )
-    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
-    return float(done.stdout) / 1024.0
+    return float(_output("-c", code)) / 1024.0

@@ -11,21 +11,29 @@ from pathlib import Path
 from typing import Any
 
 
-def interleaved(runs: Mapping[str, Callable[[], float]], repeats: int) -> dict[str, list[float]]:
-    """Call every run once a round, after a round that is not counted, and return what each returned."""
+def medians(
+    runs: Mapping[str, Callable[[], float]], repeats: int, tell: Callable[[str], None] = lambda word: None
+) -> tuple[dict[str, float], dict[str, str]]:
+    """Return the median of each run's figures over interleaved repeats, and why other runs have none.
+
+    Every run is called once a round, after a round that is not counted; one that raises is not called again. `tell`
+    takes a word on each round.
+    """
     found: dict[str, list[float]] = {name: [] for name in runs}
-    for name, run in runs.items():
-        run()
-        del found[name][:]
-    for _ in range(repeats):
+    failed: dict[str, str] = {}
+    for turn in range(repeats + 1):
+        tell(f"round {turn} of {repeats}" if turn else "first round, not counted")
         for name, run in runs.items():
-            found[name].append(run())
-    return found
-
-
-def medians(runs: Mapping[str, Callable[[], float]], repeats: int) -> dict[str, float]:
-    """Return the median of each run's figures over interleaved repeats."""
-    return {name: statistics.median(values) for name, values in interleaved(runs, repeats).items()}
+            if name in failed:
+                continue
+            try:
+                figure = run()
+            except Exception as error:  # the other runs' figures are kept
+                failed[name] = f"{type(error).__name__}: {' '.join(str(error).split())}"
+                continue
+            if turn:
+                found[name].append(figure)
+    return {name: statistics.median(values) for name, values in found.items() if name not in failed}, failed
 
 
 def seconds(function: Callable[[], Any]) -> float:

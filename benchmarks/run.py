@@ -1,18 +1,21 @@
-"""Run the benchmarks, print one table and write a JSON file."""
+"""Run the benchmarks: a table that is printed, and a JSON file that is written, row by row."""
 
 from __future__ import annotations
 
 import argparse
-import json
 import math
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from benchmarks import auto_peer, cases, jobs, peers
+from benchmarks.book import FAILED, MISSING, Book, Job, Missing
 from benchmarks.chords import chord_error
+from benchmarks.layout import CHAIN, DIAGRAM, JOBS, MEMORY, POINTS, Table
 from benchmarks.measure import machine, medians, seconds
 from benchmarks.points import Floor, growth, per_point, split
 
@@ -28,134 +31,173 @@ _WEIGHTS = {
 _DS_MAX = 0.1
 # how fine the diagrams are that are compared, the default among them, and how much finer that is against which their
 # chords are measured
-_CHORDS, _FINER = (3e-5, 3e-6, 3e-7), 30.0
-# the steps tried for AUTO, from the largest on
-_STEPS = np.geomspace(0.5, 0.00005, 161).tolist()
+_CHORDS, _DEFAULT, _FINER = (3e-5, 3e-6, 3e-7), (3e-6,), 30.0
+# the steps tried for AUTO, from the largest on, at first in strides
+_STEPS, _STRIDE = np.geomspace(0.5, 0.00005, 161).tolist(), 8
+_REPEATS, _QUICK_REPEATS = 9, 5
+_MECHANISMS = {
+    "overcentre": cases.overcentre,
+    "overcentre 1e+06": partial(cases.overcentre, 1e6),
+    "nose gear": cases.gear,
+    "nose gear full": cases.full_gear,
+}
+Tell = Callable[[str], None]
+Runs = dict[str, Callable[[], float]]
 
 
-def mechanism_points(case: cases.Case, repeats: int, auto: str | None) -> dict[str, Any]:
+@cache
+def _case(name: str) -> cases.Case:
+    return _MECHANISMS[name]() if name in _MECHANISMS else cases.reaction()
+
+
+def _with_auto(runs: Runs, case: cases.Case) -> dict[str, str]:
+    """Add AUTO-07p to the runs of a case; return why it is missing where it is."""
+    missing = auto_peer.missing()
+    if missing is not None:
+        return {"AUTO": missing}
+    peer = auto_peer.AutoPeer(case, _WEIGHTS[case.name], _DS_MAX)
+    runs["AUTO"] = lambda: (run := peer.run()).seconds / run.points
+    return {}
+
+
+def _microseconds(runs: Runs, repeats: int, missing: dict[str, str], tell: Tell) -> dict[str, Any]:
+    """Return the runs' medians in us, with those that failed or are missing."""
+    times, failed = medians(runs, repeats, tell)
+    found: dict[str, Any] = {name: _US * value for name, value in times.items()}
+    return {**found, **({FAILED: failed} if failed else {}), **({MISSING: missing} if missing else {})}
+
+
+def mechanism_points(case: cases.Case, repeats: int, tell: Tell) -> dict[str, Any]:
     """Return what a point of a mechanism costs, beside the floor and, where there is one, AUTO."""
     branch = case.run()
     floor = Floor(case, branch)
-    runs: dict[str, Callable[[], float]] = {
+    runs: Runs = {
         "mjcont": lambda: per_point(case),
         "all eigenvalues": lambda: per_point(case, eigenvalues=True),
         "no rows between": lambda: per_point(case, chord=math.inf),
         "floor": floor.per_point,
     }
-    if auto is None and case.name in _WEIGHTS:
-        peer = auto_peer.AutoPeer(case, _WEIGHTS[case.name], _DS_MAX)
-        runs["AUTO"] = lambda: (run := peer.run()).seconds / run.points
-    found = {name: _US * value for name, value in medians(runs, repeats).items()}
+    missing = _with_auto(runs, case) if case.name in _WEIGHTS else {}
+    found = _microseconds(runs, repeats, missing, tell)
     before = case.problem.evaluations
     case.run()
     evaluations = (case.problem.evaluations - before) / len(branch)
     return {**found, "points": len(branch), "evaluations": evaluations, "split": split(case)}
 
 
-def diagrams(case: cases.Case, repeats: int) -> dict[str, Any]:
-    """Compare whole diagrams of a case from coarse to fine; AUTO's steps only become smaller."""
-    found: dict[str, Any] = {}
-    largest = math.inf
-    for chord in _CHORDS:
-        found[f"{case.name}, {chord:.0e}"] = row = same_accuracy(case, repeats, chord, largest)
-        largest = row["AUTO ds_max"]
-    return found
+def plain_points(case: cases.Case, repeats: int, tell: Tell) -> dict[str, Any]:
+    """Return what a point of the plain problem costs, beside its peers."""
+    runs: Runs = {"mjcont": lambda: per_point(case), "root": lambda: peers.root_stepping(case)}
+    missing = _with_auto(runs, case)
+    if (why := peers.pycont_missing()) is not None:
+        missing["PyCont-Lite"] = why
+    else:
+        runs["PyCont-Lite"] = lambda: peers.pycont(case)
+    return {**_microseconds(runs, repeats, missing, tell), "points": len(case.run())}
 
 
-def same_accuracy(case: cases.Case, repeats: int, chord: float, largest: float = math.inf) -> dict[str, Any]:
-    """Compare whole diagrams when AUTO's steps are as large as its chord error allows: that of mjcont's diagram."""
-    branch, fine = case.run(chord=chord), case.run(chord=chord / _FINER)
-    spans = np.array([case.bounds[1] - case.bounds[0], np.ptp(fine[case.watched])])
-    reference = np.column_stack([fine[case.parameter], fine[case.watched]])
-    ours = chord_error(np.column_stack([branch[case.parameter], branch[case.watched]]), reference, spans)
-    for ds_max in (s for s in _STEPS if s <= largest):
-        peer = auto_peer.AutoPeer(case, _WEIGHTS[case.name], ds_max)
-        run = peer.run()
-        theirs = chord_error(run.curve, reference, spans)
-        if theirs <= ours:
-            break
-    times = medians(
-        {"mjcont": lambda: seconds(lambda: case.run(chord=chord)), "AUTO": lambda: peer.run().seconds}, repeats
-    )
-    return {
-        **{name: 1e3 * value for name, value in times.items()},
-        "chord error": {"mjcont": ours, "AUTO": theirs},
-        "points": {"mjcont": len(branch), "AUTO": run.points},
-        "AUTO ds_max": ds_max,
-    }
+class Diagrams:
+    """Whole diagrams of a case beside AUTO's, from coarse to fine; AUTO's steps only become smaller."""
+
+    def __init__(self, name: str, repeats: int) -> None:
+        self.name, self.repeats, self.first = name, repeats, 0
+
+    def compare(self, chord: float, tell: Tell) -> dict[str, Any]:
+        """Compare when AUTO's steps are as large as its chord error allows: that of mjcont's diagram."""
+        if (why := auto_peer.missing()) is not None:
+            raise Missing(why)
+        case = _case(self.name)
+        branch, fine = case.run(chord=chord), case.run(chord=chord / _FINER)
+        spans = np.array([case.bounds[1] - case.bounds[0], np.ptp(fine[case.watched])])
+        reference = np.column_stack([fine[case.parameter], fine[case.watched]])
+        ours = chord_error(np.column_stack([branch[case.parameter], branch[case.watched]]), reference, spans)
+
+        @cache
+        def auto(step: int) -> tuple[auto_peer.AutoPeer, auto_peer.AutoRun, float]:
+            tell(f"step {step} of AUTO")
+            peer = auto_peer.AutoPeer(case, _WEIGHTS[case.name], _STEPS[step])
+            run = peer.run()
+            return peer, run, chord_error(run.curve, reference, spans)
+
+        last = len(_STEPS) - 1
+        strides = [*range(self.first, last, _STRIDE), last]
+        fits = next((i for i, step in enumerate(strides) if auto(step)[2] <= ours), len(strides) - 1)
+        before = strides[fits - 1] + 1 if fits else self.first
+        self.first = next((k for k in range(before, strides[fits]) if auto(k)[2] <= ours), strides[fits])
+        peer, run, theirs = auto(self.first)
+        runs = {"mjcont": lambda: seconds(lambda: case.run(chord=chord)), "AUTO": lambda: peer.run().seconds}
+        times, failed = medians(runs, self.repeats, tell)
+        if failed:
+            raise RuntimeError("; ".join(f"{name}: {why}" for name, why in failed.items()))
+        return {
+            **{name: 1e3 * value for name, value in times.items()},
+            "chord error": {"mjcont": ours, "AUTO": theirs},
+            "points": {"mjcont": len(branch), "AUTO": run.points},
+            "AUTO ds_max": _STEPS[self.first],
+        }
 
 
-def main() -> None:
-    """Measure, print, write."""
+def plan(quick: bool, repeats: int) -> Iterator[Job]:
+    """Yield the rows, in order."""
+    for name in _MECHANISMS:
+        yield Job(POINTS, name, lambda tell, name=name: mechanism_points(_case(name), repeats, tell))
+    yield Job(POINTS, "ab", lambda tell: plain_points(_case("ab"), repeats, tell))
+    for links in cases.LINKS[:3] if quick else cases.LINKS:
+        measure = partial(_chain, links)
+        yield Job(CHAIN, f"chain {links}", measure)
+    for name in _MECHANISMS:
+        diagrams = Diagrams(name, repeats)
+        for chord in _DEFAULT if quick else _CHORDS:
+            yield Job(DIAGRAM, f"{name}, {chord:.0e}", partial(diagrams.compare, chord))
+    if quick:
+        return
+    yield Job(MEMORY, "chain 80", lambda tell: jobs.memory(80))
+    for name, job in (("import", jobs.import_time), ("inspect", jobs.inspect), ("locus of figure 12", jobs.locus)):
+        yield Job(JOBS, name, lambda tell, job=job: _median(job, 5, tell))
+    yield Job(JOBS, "reproduce", lambda tell: jobs.reproduce())
+
+
+def _chain(links: int, tell: Tell) -> dict[str, Any]:
+    return mechanism_points(cases.chain(links), 3, tell)
+
+
+def _median(job: Callable[[], float], repeats: int, tell: Tell) -> float:
+    times, failed = medians({"": job}, repeats, tell)
+    if failed:
+        raise RuntimeError(failed[""])
+    return times[""]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Measure, print, write; return 1 where a row failed, 130 after an interrupt."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("-o", "--output", type=Path, default=Path("out/benchmarks.json"))
-    parser.add_argument("--repeats", type=int, default=9)
-    parser.add_argument("--quick", action="store_true", help="without the largest chains and the whole jobs")
-    given = parser.parse_args()
-    auto = auto_peer.missing()
-    result: dict[str, Any] = {"machine": machine(), "skipped": [s for s in (auto, peers.pycont_missing()) if s]}
-    mechanisms = [cases.overcentre(), cases.overcentre(1e6), cases.gear(), cases.full_gear()]
-    result["points [us]"] = {c.name: mechanism_points(c, given.repeats, auto) for c in mechanisms}
-    result["points [us]"]["ab"] = plain_points(cases.reaction(), given.repeats, auto)
-    links = cases.LINKS[:3] if given.quick else cases.LINKS
-    result["chain [us]"] = {n: mechanism_points(cases.chain(n), 3, auto) for n in links}
-    sizes = [n for n in links if n <= 80]
-    result["growth"] = growth(sizes, [result["chain [us]"][n]["mjcont"] for n in sizes])
-    if auto is None:
-        result["diagram [ms]"] = {k: v for c in mechanisms for k, v in diagrams(c, given.repeats).items()}
-    if not given.quick:
-        result["memory [MB]"] = jobs.memory(80)
-        result["jobs [s]"] = medians(
-            {"import": jobs.import_time, "inspect": jobs.inspect, "locus of figure 12": jobs.locus}, 5
-        )
-        result["jobs [s]"]["reproduce"] = jobs.reproduce()
-    given.output.parent.mkdir(parents=True, exist_ok=True)
-    given.output.write_text(json.dumps(result, indent=1))
-    print(table(result))
-    print(f"written: {given.output}")
+    parser.add_argument("--repeats", type=int, help=f"default {_REPEATS}, with --quick {_QUICK_REPEATS}")
+    parser.add_argument(
+        "--quick", action="store_true", help="a few minutes: diagrams at the default chord, short chains, no whole jobs"
+    )
+    given = parser.parse_args(arguments)
+    repeats = given.repeats or (_QUICK_REPEATS if given.quick else _REPEATS)
+    book = Book(given.output, {"machine": machine()}, Table())
+    print(", ".join(f"{k} {v}" for k, v in book.result["machine"].items()), flush=True)
+    try:
+        book.run(list(plan(given.quick, repeats)))
+    except KeyboardInterrupt:
+        print(f"\ninterrupted; written so far: {given.output}", file=sys.stderr)
+        return 130
+    finally:
+        _grown(book)
+    print(f"\nwritten: {given.output}")
+    if book.broken:
+        print(f"{len(book.broken)} rows failed: {', '.join(book.broken)}", file=sys.stderr)
+    return 1 if book.broken else 0
 
 
-def plain_points(case: cases.Case, repeats: int, auto: str | None) -> dict[str, Any]:
-    """Return what a point of the plain problem costs, beside its peers."""
-    runs: dict[str, Callable[[], float]] = {
-        "mjcont": lambda: per_point(case),
-        "root": lambda: peers.root_stepping(case),
-    }
-    if auto is None:
-        peer = auto_peer.AutoPeer(case, _WEIGHTS[case.name], _DS_MAX)
-        runs["AUTO"] = lambda: (run := peer.run()).seconds / run.points
-    if peers.pycont_missing() is None:
-        runs["PyCont-Lite"] = lambda: peers.pycont(case)
-    return {**{k: _US * v for k, v in medians(runs, repeats).items()}, "points": len(case.run())}
-
-
-def table(result: dict[str, Any]) -> str:
-    """Return the figures as text."""
-    lines = [", ".join(f"{k} {v}" for k, v in result["machine"].items()), *result["skipped"], ""]
-    head = f"{'a point [us]':<18}{'mjcont':>9}{'floor':>9}{'ratio':>7}{'AUTO':>9}{'ratio':>7}"
-    lines.append(f"{head}   mujoco/algebra/python   all eigenvalues   no rows between")
-    named = [*result["points [us]"].items(), *((f"chain {n}", row) for n, row in result["chain [us]"].items())]
-    for name, row in named:
-        ours, cells = row["mjcont"], []
-        for peer in ("floor", "AUTO"):
-            cells.append(f"{row[peer]:9.1f}{ours / row[peer]:7.2f}" if peer in row else f"{'-':>9}{'-':>7}")
-        shares = "/".join(f"{100 * v:.0f} %" for v in row.get("split", {}).values())
-        every = "".join(f"{row[k]:18.1f}" for k in ("all eigenvalues", "no rows between") if k in row)
-        lines.append(f"{name:<18}{ours:9.1f}{''.join(cells)}   {shares:<21}{every}".rstrip())
-        lines += [f"{'':<18}{peer}: {row[peer]:.1f}" for peer in ("root", "PyCont-Lite") if peer in row]
-    lines.append(f"the chain's cost per point grows as nv^{result['growth']:.2f}")
-    if "diagram [ms]" in result:
-        lines += ["", f"{'a diagram, chord':<26}{'mjcont':>9}{'AUTO':>9}{'ratio':>7}   points   chord error"]
-        for name, row in result["diagram [ms]"].items():
-            points, error = row["points"], row["chord error"]
-            lines.append(
-                f"{name:<26}{row['mjcont']:9.2f}{row['AUTO']:9.2f}{row['mjcont'] / row['AUTO']:7.2f}   "
-                f"{points['mjcont']}/{points['AUTO']}   {error['mjcont']:.1e}/{error['AUTO']:.1e}"
-            )
-    for key in ("memory [MB]", "jobs [s]"):
-        if key in result:
-            value = result[key]
-            cells = {"chain 80": value} if isinstance(value, float) else value
-            lines += ["", key, *(f"  {name:<20}{v:9.3f}" for name, v in cells.items())]
-    return "\n".join(lines)
+def _grown(book: Book) -> None:
+    """Add how the cost of a chain's point grows with its links, of those that were measured."""
+    rows = {int(name.split()[1]): row.get("mjcont") for name, row in book.result.get(CHAIN, {}).items()}
+    known = {n: time for n, time in rows.items() if time is not None and n <= 80}
+    if len(known) > 1:
+        book.result["growth"] = growth(list(known), list(known.values()))
+        print(f"\nthe chain's cost per point grows as nv^{book.result['growth']:.2f}")
+        book.write()

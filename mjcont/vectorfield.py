@@ -15,8 +15,9 @@ from mjcont.numerics.equations.differences import (
     Stencil,
     jacobian_from_rows,
     jacobian_steps,
+    kept_within,
 )
-from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Values
+from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Values
 from mjcont.results.quantities import Observable, Parameter, default_bounds, finite, finite_array, finite_pair
 
 
@@ -84,6 +85,10 @@ class VectorField:
         self.parameters = {
             k: Parameter(k, units.get(k, ""), v, own.get(k, default_bounds(v)), "field") for k, v in default.items()
         }
+        for parameter in self.parameters.values():
+            parameter.check(parameter.value)
+        if not np.all((self.state_scale > 0) & np.isfinite(self.state_scale)):
+            raise ParameterError(f"scale: typical sizes must be positive numbers, got {self.state_scale.tolist()}")
         labels = list(names) if names is not None else [f"u[{i}]" for i in range(self.n)]
         if len(labels) != self.n:
             raise ParameterError(f"names: expected {self.n} names for the components of u, got {len(labels)}")
@@ -109,7 +114,8 @@ class VectorField:
         """Return the state given, or u0."""
         if keyframe is not None:
             raise unknown_name("keyframe", keyframe, self.keyframes)
-        return self.u0.copy() if state is None else finite_array("state", state, (self.n,))
+        labels = [name for name, _ in self.state_labels]
+        return self.u0.copy() if state is None else finite_array("state", state, (self.n,), labels=labels)
 
     # -- the problem -----------------------------------------------------------------------------------------
 
@@ -141,12 +147,14 @@ class VectorField:
             found[i] = self.residual(states[i], at)
         return found
 
-    def linearize_along(self, states: Array, values: Values, name: str, column: Array) -> None:
+    def linearize_along(
+        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
+    ) -> None:
         """Return None: functions are evaluated one state after the other."""
-        del states, values, name, column
+        del states, values, name, column, bounds
 
     def linearize(
-        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
+        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
     ) -> Linearization:
         """Return f, df/du and df/dp (always by fourth-order differences where no Jacobian is given)."""
         del accurate
@@ -158,8 +166,8 @@ class VectorField:
             jac = jacobian_from_rows(self.residuals(x, values, steps), self.state_scale, FOURTH_ORDER)
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
-            rule, h = self.parameter_stencil(name, values[name], spans[k] if spans else None)
-            rows = [self.residual(x, {**values, name: values[name] + o * h}) for o in rule.offsets]
+            rule, h = self.parameter_stencil(name, values[name], ranges[k] if ranges else None)
+            rows = [self.residual(x, {**values, name: values[name] + o * h}) if o else f for o in rule.offsets]
             par[:, k] = np.asarray(rule.weights) @ np.array(rows) / h
         return Linearization(f, jac, par)
 
@@ -178,10 +186,11 @@ class VectorField:
             raise FunctionError(f"the jacobian of {self.name} returned shape {jac.shape} for {self.n} unknowns")
         return jac
 
-    def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
-        """Return the fourth-order rule and a step relative to the parameter's value, or to its span near zero."""
-        low, high = self.parameters[name].bounds
-        return PARAMETER, PARAMETER.step * max(abs(value), 1e-2 * (span or high - low))
+    def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
+        """Return a fourth-order rule within bounds and a step relative to the value, or to the bounds near zero."""
+        low, high = self.parameters[name].bounds if bounds is None else bounds
+        step = PARAMETER.step * max(abs(value), 1e-2 * (high - low))
+        return (PARAMETER, step) if bounds is None else kept_within(PARAMETER, step, value, bounds)
 
     def pencil(self, x: Array, values: Values, jac: Any) -> Pencil:
         """Return the pencil of a first-order system: M = 0, C = I, K = -df/du."""

@@ -155,7 +155,7 @@ def _system(branch: Branch, index: int, free: Sequence[Free]) -> System:
     plain = System(problem, values, free)
     if branch.kind == "equilibria":
         return plain
-    local = Local(problem, branch.states[index], values, plain.names, True)
+    local = Local(problem, branch.states[index], values, plain.names, True, plain.ranges)
     square = critical_square(spectrum(local.pencil))
     conditions = conditions_of(branch.kind.removesuffix(" locus"), local, plain, square)
     return System(problem, values, free, conditions, accurate=True)

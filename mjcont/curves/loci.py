@@ -160,7 +160,7 @@ def locus_system(point: SpecialPoint, kind: str, free: Sequence[Free]) -> System
     values = problem.values(point.parameters)
     problem, _ = hold_rigid_modes(problem, point.state, values)
     plain = System(problem, values, free)
-    local = Local(problem, point.state, values, plain.names, True)
+    local = Local(problem, point.state, values, plain.names, True, plain.ranges)
     square = float(point.coefficients["omega"]) ** 2 if "omega" in point.coefficients else None
     return System(problem, values, free, conditions_of(kind, local, plain, square), accurate=True)
 

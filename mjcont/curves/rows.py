@@ -67,7 +67,8 @@ class CurveRows:
         if not len(indices):
             return []
         every: list[Values] = [self.values(i) for i in indices]
-        return spectra_at(self.system.problem, self.states[indices], every, self.system.names[0])
+        (name,), (bounds,) = self.system.names, self.system.ranges
+        return spectra_at(self.system.problem, self.states[indices], every, name, bounds)
 
     def stability(self) -> tuple[list[str], list[int], list[Spectrum | None]]:
         """Return stability, number of unstable eigenvalues, and the spectrum where it was needed, of every row.

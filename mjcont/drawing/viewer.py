@@ -10,6 +10,7 @@ import mujoco
 
 from mjcont.errors import MjcontError
 from mjcont.mechanism.mechanism import Mechanism
+from mjcont.models.quiet import quiet
 from mjcont.numerics.equations.problem import Array
 
 
@@ -42,7 +43,8 @@ class Stand:
         self._writer.write(self._mechanism.parameters, self._mechanism.values(values))
         self.data.qpos[:] = state
         self._writer.inputs.begin(self.data)
-        mujoco.mj_forward(self.model, self.data)
+        with quiet:
+            mujoco.mj_forward(self.model, self.data)
 
 
 def posed(mechanism: Mechanism, state: Array, values: Mapping[str, float]) -> tuple[mujoco.MjModel, mujoco.MjData]:

@@ -70,10 +70,10 @@ def point_system(point: Point) -> System:
     problem, _ = hold_rigid_modes(problem, point.state, values)
     if not kind or not isinstance(point, SpecialPoint):
         return System(problem, values, (), (), accurate=True)
-    free = [Free(n, *bounds, problem.parameter(n).unit) for n, bounds in point.free.items()]
+    free = [Free(n, *bounds, problem.parameter(n).unit, False) for n, bounds in point.free.items()]
     free = free[: CODIMENSION.get(kind, len(free))]
     plain = System(problem, values, free)
-    local = Local(problem, point.state, values, plain.names, True, plain.spans)
+    local = Local(problem, point.state, values, plain.names, True, plain.ranges)
     conditions: Sequence[Any]
     if kind == "UZ":
         name = str(point.coefficients["monitor"]).rpartition(" = ")[0]

@@ -10,6 +10,7 @@ from mujoco.batch import Batch
 
 from mjcont.mechanism.kinks import Kinks, codes_at, element_name
 from mjcont.mechanism.writer import FieldWriter
+from mjcont.models.quiet import Warned
 from mjcont.numerics.equations.problem import Array
 
 _CONTACT = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)
@@ -21,6 +22,8 @@ class Rows:
     def __init__(self, model: mujoco.MjModel, count: int, kinks: Kinks | None) -> None:
         self._model, self._kinks = model, kinks
         self._batch = Batch(model, count, nthread=1)
+        self._warned = Warned(self._batch)
+        self._spoilt: Array | None = None
         self._version = -1
         self._qpos = self._batch.bind("qpos")
         self._qvel = self._batch.bind("qvel")
@@ -36,7 +39,7 @@ class Rows:
     ) -> Array:
         """Evaluate the rows' states with the writer's inputs and return qfrc_smooth, a live view (m, nv).
 
-        `ctrl` (m, nu) takes the place of the writer's controls.
+        `ctrl` (m, nu) takes the place of the writer's controls. Rows that MuJoCo cannot evaluate so are NaN.
         """
         if self._version != writer.version:
             self._batch.set_models(self._model)
@@ -49,11 +52,15 @@ class Rows:
         if ctrl is not None:
             self._ctrl[:] = ctrl
         self._batch.forward()
-        return self._forces
+        self._spoilt = self._warned.spoilt()
+        return self._of_sound_rows(self._forces)
 
     def acceleration(self) -> Array:
         """Return qacc of the last evaluation, a live view (m, nv)."""
-        return self._acceleration
+        return self._of_sound_rows(self._acceleration)
+
+    def _of_sound_rows(self, field: Array) -> Array:
+        return field if self._spoilt is None else np.where(self._spoilt[:, None], np.nan, field)
 
     def field(self, name: str) -> Array:
         """Return a field of the data, a live view (m, ...): filled by evaluations after it was first asked for."""
@@ -85,6 +92,7 @@ class ConstrainedRows:
     def __init__(self, model: mujoco.MjModel, kinks: Kinks | None) -> None:
         self._model, self._kinks = model, kinks
         self._data = mujoco.MjData(model)
+        self._warned = Warned(self._data)
         self.sides: list[bytes] = []
 
     def forward(self, qpos: Array, qvel: Array | None, writer: FieldWriter, qacc: Array | None = None) -> Array:
@@ -104,6 +112,8 @@ class ConstrainedRows:
             out[i] = d.qfrc_actuator - d.qfrc_inverse
             if d.ncon and (qvel is not None or qacc is not None):
                 out[i] -= _contact_friction(m, d)
+            if self._warned.spoilt() is not None:
+                out[i] = np.nan
         return out
 
     def accelerations(self, qpos: Array, qvel: Array, writer: FieldWriter) -> Array:
@@ -114,7 +124,7 @@ class ConstrainedRows:
         for i, x in enumerate(qpos):
             d.qpos[:], d.qvel[:], d.qacc_warmstart[:] = x, qvel[i], 0.0
             mujoco.mj_forward(m, d)
-            out[i] = d.qacc
+            out[i] = d.qacc if self._warned.spoilt() is None else np.nan
         return out
 
     def active(self, x: Array, writer: FieldWriter) -> frozenset[str]:

@@ -11,7 +11,7 @@ from mjcont.mechanism.evaluation import Evaluator
 from mjcont.mechanism.sides import difference_rule, one_sided, parameter_rate
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.numerics.equations.differences import FORWARD, Stencil, jacobian_from_rows, jacobian_steps, stencil
-from mjcont.numerics.equations.problem import Array, Linearization, Values
+from mjcont.numerics.equations.problem import Array, Linearization, Range, Ranges, Values
 from mjcont.results.quantities import Parameter
 
 # states whose derivatives share a batch, where they have few degrees of freedom
@@ -37,15 +37,16 @@ class Derivatives:
     failure: str = ""
 
     def linearize(
-        self, x: Array, values: Values, wrt: Sequence[str], accurate: bool, spans: Sequence[float]
+        self, x: Array, values: Values, wrt: Sequence[str], accurate: bool, ranges: Ranges
     ) -> Linearization:
         """Return the forces with their derivatives in the state and in the parameters `wrt`."""
         rule, self.failure = stencil(accurate), ""
         steps = jacobian_steps(self.scale, rule)
         self.writer.write(self.parameters, values)
         smooth = not self.evaluator.nonsmooth
+        within = dict(zip(wrt, ranges or [None] * len(wrt), strict=True))
         riders = [n for n in wrt if smooth and self.writer.alone(self.parameters, n)]
-        rows, rates = self._with_riders(x, values, self.moved(x, steps), riders)
+        rows, rates = self._with_riders(x, values, self.moved(x, steps), {n: within[n] for n in riders})
         f, sides = rows[0].copy(), self.evaluator.sides
         jac = jacobian_from_rows(rows[1:], self.scale, rule)
         if sides and not self.writer.failure:
@@ -57,11 +58,13 @@ class Derivatives:
             if name in riders:
                 par[:, k] = rates[riders.index(name)]
             else:
-                par[:, k] = self._in_parameter(x, values, name, f, spans[k] if spans else None, b"".join(sides[:1]))
+                par[:, k] = self._in_parameter(x, values, name, f, within[name], b"".join(sides[:1]))
         self.writer.write(self.parameters, values)
         return Linearization(f, jac, par)
 
-    def _with_riders(self, x: Array, values: Values, moved: Array, riders: Sequence[str]) -> tuple[Array, Array]:
+    def _with_riders(
+        self, x: Array, values: Values, moved: Array, riders: Mapping[str, Range | None]
+    ) -> tuple[Array, Array]:
         """Return forces at x and at `moved`, and their rates (len(riders), nv) in controls that ride in the batch."""
         count = 1 + len(moved)
         states = np.empty((count + len(riders), len(x)))
@@ -72,7 +75,7 @@ class Derivatives:
         ctrl[:] = self.writer.inputs.ctrl
         steps = []
         for k, name in enumerate(riders, count):
-            steps.append(self.rule(name, values[name])[1])
+            steps.append(self.rule(name, values[name], riders[name])[1])
             for target in self.parameters[name].targets:
                 for i in target.index:
                     ctrl[k, i] += target.factor * steps[-1]
@@ -95,7 +98,7 @@ class Derivatives:
         return found
 
     def linearize_along(
-        self, states: Array, values: Values, name: str, column: Array
+        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None
     ) -> tuple[Array, Array, Array] | None:
         """Return forces (m, nv) and their derivatives in the state (m, nv, nv) and in a parameter (m, nv).
 
@@ -104,12 +107,12 @@ class Derivatives:
         if not self.side_by_side(name):
             return None
         rule, n = stencil(False), len(self.scale)
-        h = self.rule(name, float(column[0]))[1]
+        h = np.array([self.rule(name, value, bounds)[1] for value in column.tolist()])
         steps = np.zeros((2 * n + 2, n))
         steps[1:-1] = jacobian_steps(self.scale, rule)
         controls = self.writer.controls(self.parameters, values, name, np.repeat(column, len(steps)))
         for target in self.parameters[name].targets:
-            controls[len(steps) - 1 :: len(steps), target.index] += target.factor * h
+            controls[len(steps) - 1 :: len(steps), target.index] += target.factor * h[:, None]
         moved = self.moved(np.repeat(states, len(steps), axis=0), np.tile(steps, (len(states), 1)))
         rows, at = np.empty((len(states), len(steps), n)), 0
         together = _TOGETHER if n <= _SMALL else 1
@@ -120,13 +123,15 @@ class Derivatives:
             at += count
         f = rows[:, 0]
         jac = (rows[:, 1 : n + 1] - rows[:, n + 1 : -1]) * (rule.weights[0] / (rule.step * self.scale))[:, None]
-        return f, jac.transpose(0, 2, 1), (rows[:, -1] - f) / h
+        return f, jac.transpose(0, 2, 1), (rows[:, -1] - f) / h[:, None]
 
-    def rule(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
+    def rule(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""
-        return difference_rule(self.parameters[name], value, span)
+        return difference_rule(self.parameters[name], value, bounds)
 
-    def _in_parameter(self, x: Array, values: Values, name: str, f: Array, span: float | None, side: bytes) -> Array:
+    def _in_parameter(
+        self, x: Array, values: Values, name: str, f: Array, bounds: Range | None, side: bytes
+    ) -> Array:
         """Return d forces/dp, (nv,); `f` are the forces at x, on the smooth piece `side`."""
 
         def at(offset: float) -> tuple[Array, bytes]:
@@ -134,7 +139,7 @@ class Derivatives:
             self.failure = self.failure or self.writer.failure
             return self.evaluator.forces(x[None])[0], b"".join(self.evaluator.sides)
 
-        rule, h = self.rule(name, values[name], span)
+        rule, h = self.rule(name, values[name], bounds)
         return parameter_rate(at, f, side, FORWARD if self.parameters[name].affine else rule, h)
 
     def _pieces(self, x: Array, steps: Array) -> tuple[Array, list[bytes]]:

@@ -9,6 +9,7 @@ from mjcont.mechanism.batches import ConstrainedRows, Rows
 from mjcont.mechanism.kinks import Kinks
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.models.features import passive
+from mjcont.models.quiet import Warned
 from mjcont.numerics.equations.problem import Array
 
 _DISABLE = mujoco.mjtDisableBit
@@ -36,6 +37,7 @@ class Evaluator:
         self._dampers = None if self.nonsmooth else Dampers.of(model)
         self._batches: dict[int, Rows] = {}
         self._data = mujoco.MjData(model)
+        self._warned = Warned(self._data)
         self._forces = self._data.qfrc_smooth[None]
 
     def _rows(self, count: int) -> Rows:
@@ -66,7 +68,7 @@ class Evaluator:
         self.writer.inputs.put(self._data)
         self._data.qpos[:] = x
         mujoco.mj_forward(self.model, self._data)
-        return self._forces
+        return self._forces if self._warned.spoilt() is None else np.full_like(self._forces, np.nan)
 
     @property
     def sides(self) -> list[bytes]:

@@ -23,6 +23,8 @@ import numpy as np
 from mjcont.errors import MjcontError, ModelError, ParameterError, leaves_domain
 from mjcont.mechanism.declarations import Declaration, agreed_value
 from mjcont.mechanism.specpaths import PREFIX, SpecTarget, resolve_spec_path
+from mjcont.models.numbers import invalid_number
+from mjcont.models.quiet import heard
 from mjcont.results.quantities import Parameter, default_bounds
 
 _CACHED, _CACHED_BYTES = 16, 2e8
@@ -76,7 +78,8 @@ class Geometry:
                 spec.modelfiledir = str(self._folder)
             for body in spec.bodies:
                 body.simple = 0  # a body that stops being "simple" would change the layout of the mass matrix
-            self._reference = spec.compile()
+            with heard():
+                self._reference = spec.compile()
             self._most = max(2, min(_CACHED, int(_CACHED_BYTES // mujoco.mj_sizeModel(self._reference))))
             self._spec = spec
         return self._spec
@@ -135,10 +138,14 @@ class Geometry:
                 what = f"{type(error).__name__}: {error}"
                 raise ParameterError(f"parameter '{parameter.name}': its function failed at {where}: {what}") from error
         try:
-            model = spec.compile()
+            with heard():
+                model = spec.compile()
         except (ValueError, mujoco.FatalError) as error:
             sentence = " ".join(str(error).split())
             raise NotCompiled(f"the model does not compile at {where}: {sentence}") from error
+        wrong = invalid_number(model)
+        if wrong:
+            raise NotCompiled(f"the model is no model at {where}: {wrong}")
         change = _structure_change(self.reference, model)
         if change:
             names = " and ".join(f"'{p.name}'" for p, _ in edits)

@@ -14,13 +14,15 @@ from mujoco.batch import Batch
 
 from mjcont.models.actuators import _DYN, actuator_of, follower, integrator
 
+_MOST = float(mujoco.mjMAXVAL)
+_CLAMPED = "{range}, where MuJoCo would clamp it"
 INPUT_FIELDS = frozenset({"ctrl", "act", "mocap_pos", "mocap_quat", "eq_active"})
 
 
 def limits(model: mujoco.MjModel, field: str, index: int) -> tuple[float, float, str]:
-    """Return the range of an input outside which MuJoCo would clamp it, and the words for that range."""
+    """Return the range of an input outside which MuJoCo would take another value, and the words for that range."""
     if field == "eq_active":
-        return 0.0, 1.0, "the switch's range"
+        return 0.0, 1.0, f"the switch's range {_CLAMPED}"
     if field not in ("ctrl", "act"):
         return -math.inf, math.inf, ""
     a = actuator_of(model, field, index)
@@ -31,10 +33,11 @@ def limits(model: mujoco.MjModel, field: str, index: int) -> tuple[float, float,
         ranges.append((*model.actuator_actrange[a], "actrange"))
     if field == "ctrl" and _DYN(model.actuator_dyntype[a]) == _DYN.mjDYN_MUSCLE:
         ranges.append((0.0, 1.0, "muscle range"))
-    low = max((float(r[0]) for r in ranges), default=-math.inf)
-    high = min((float(r[1]) for r in ranges), default=math.inf)
-    named = list(dict.fromkeys(str(r[2]) for r in ranges)) or ["ctrlrange"]
-    return low, high, "the actuator's " + " and ".join(named)
+    if not ranges:
+        return -_MOST, _MOST, "the numbers {range}: MuJoCo would take zero instead"
+    low, high = max(float(r[0]) for r in ranges), min(float(r[1]) for r in ranges)
+    named = dict.fromkeys(str(r[2]) for r in ranges)
+    return low, high, f"the actuator's {' and '.join(named)} {_CLAMPED}"
 
 
 def loaded_inputs(model: mujoco.MjModel) -> dict[str, np.ndarray]:

@@ -32,7 +32,7 @@ from mjcont.models.actuators import bush_names
 from mjcont.models.mjcf import exact_text
 from mjcont.models.states import checked_state, coordinates_are_flat, keyframes, model_name, state_labels, state_scale
 from mjcont.numerics.equations.differences import Stencil
-from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Values
+from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Values
 from mjcont.results.quantities import Parameter
 
 
@@ -113,7 +113,9 @@ class Mechanism(Observed):
     @classmethod
     def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
         """Take an `MjSpec` (copied)."""
-        return cls(loading.compile_spec(spec), exact_text(spec), friction, geometry=Geometry(spec.copy()))
+        notes: list[str] = []
+        model = loading.compile_spec(spec, notes)
+        return cls(model, exact_text(spec), friction, notes, Geometry(spec.copy()))
 
     @classmethod
     def from_model(cls, model: mujoco.MjModel, *, friction: str = "frictionless") -> Mechanism:
@@ -207,10 +209,10 @@ class Mechanism(Observed):
         return self._core.derivatives.along(states, values, name, column)
 
     def linearize_along(
-        self, states: Array, values: Values, name: str, column: Array
+        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
     ) -> tuple[Array, Array, Array] | None:
         """Return the residual and its derivatives in the state and in a parameter; arguments as `residuals_along`."""
-        return None if self._held else self._core.derivatives.linearize_along(states, values, name, column)
+        return None if self._held else self._core.derivatives.linearize_along(states, values, name, column, bounds)
 
     def acceleration(self, qpos: Array, qvel: Array, values: Values | None = None) -> Array:
         """Return qacc at a state of motion, (nv,), in m/s^2 and rad/s^2."""
@@ -218,20 +220,20 @@ class Mechanism(Observed):
         return self._core.evaluator.accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
 
     def linearize(
-        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
+        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
     ) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
         refuse_overlap(self.parameters, values, tuple(wrt))
-        found = self._core.derivatives.linearize(x, values, wrt, accurate, spans)
+        found = self._core.derivatives.linearize(x, values, wrt, accurate, ranges)
         if not self._held:
             return found
         mass = self._core.evaluator.mass(x)
         held = rigid.rate(found.jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
         return Linearization(found.f, found.jac - held, found.par)
 
-    def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
+    def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""
-        return self._core.derivatives.rule(name, value, span)
+        return self._core.derivatives.rule(name, value, bounds)
 
     def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
         """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""

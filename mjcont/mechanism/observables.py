@@ -18,6 +18,7 @@ from mjcont.errors import unknown_name
 from mjcont.mechanism.batches import Rows
 from mjcont.mechanism.declarations import declarations
 from mjcont.mechanism.writer import FieldWriter
+from mjcont.models.quiet import quiet_data
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.results.quantities import Observable, Parameter
 
@@ -118,7 +119,7 @@ class Readings:
     ) -> None:
         self._model, self._parameters, self._writer = model, parameters, writer
         self._constrained = constrained
-        self._data = mujoco.MjData(model)
+        self._data = quiet_data(model)
         self._rows: Rows | None = None
 
     def read(

@@ -27,13 +27,16 @@ def make_parameter(model: mujoco.MjModel, declaration: Declaration) -> Parameter
     kind = parameter_kind({t.field for t in targets})
     units = {t.unit for t in targets}
     unit = declaration.unit or (units.pop() if len(units) == 1 else "")
-    *hard, words = _input_range(model, targets)
+    low, high, words = _input_range(model, targets)
     springs = any(t.loaded is not None for t in targets)
     several_decades = (1e-4 * value, 1e4 * value) if springs and value > 0 else None
     bounds = declaration.bounds or several_decades or default_bounds(value, unit)
     if kind == "switch":
         bounds = (0.0, 1.0)
-    low, high = _positive(targets) if springs else hard
+    if springs:
+        low, high = _positive(targets)
+    elif not words:
+        low, high, words = _inertial_range(model, targets)
     return Parameter(declaration.name, unit, value, bounds, kind, targets, (low, high), words)
 
 
@@ -62,6 +65,21 @@ def _positive(targets: Sequence[Target]) -> tuple[float, float]:
     return low, high
 
 
+def _inertial_range(model: mujoco.MjModel, targets: Sequence[Target]) -> tuple[float, float, str]:
+    """Return the range of values that keeps masses and moments of inertia positive, and the words for it."""
+    low, high, words = -math.inf, math.inf, ""
+    for t in targets:
+        width = {"body_mass": 1, "body_inertia": 3, "dof_armature": 0}.get(t.field)
+        if width is None:
+            continue
+        # MuJoCo's compiler wants as much of a body with joints; others may weigh nothing
+        moved = width and any(model.body_dofnum[i // width] for i in t.index)
+        end = ((float(mujoco.mjMINVAL) if moved else 0.0) - t.offset) / t.factor
+        low, high = (max(low, end), high) if t.factor > 0 else (low, min(high, end))
+        words = "the range {range} in which masses and inertias are positive"
+    return low, high, words
+
+
 def _input_range(model: mujoco.MjModel, targets: Sequence[Target]) -> tuple[float, float, str]:
     """Return the range of values that MuJoCo would not clamp, and the words for it."""
     low, high, words = -math.inf, math.inf, ""
@@ -69,7 +87,7 @@ def _input_range(model: mujoco.MjModel, targets: Sequence[Target]) -> tuple[floa
         for i in target.index:
             start, end, name = limits(model, target.field, i)
             ends = sorted(((start - target.offset) / target.factor, (end - target.offset) / target.factor))
-            if ends[0] > low or ends[1] < high:
+            if name and (not words or ends[0] > low or ends[1] < high):
                 words = name
             low, high = max(low, ends[0]), min(high, ends[1])
     return low, high, words
@@ -80,8 +98,8 @@ def control_parameter(model: mujoco.MjModel, name: str, field: str, index: int) 
     target = Target(field, (index,), path=f"control:{name}")
     low, high, words = _input_range(model, [target])
     unit = setpoint_unit(model, actuator_of(model, "act", index)) if field == "act" else ""
-    finite = math.isfinite(low) and math.isfinite(high)
-    bounds = (low, high) if finite else default_bounds(0.0, unit)
+    stated = max(-low, high) < mujoco.mjMAXVAL
+    bounds = (low, high) if stated else default_bounds(0.0, unit)
     value = float(read_target(model, target)[0])
     return Parameter(name, unit, value, bounds, parameter_kind({field}), (target,), (low, high), words)
 

@@ -21,6 +21,7 @@ from mjcont.errors import ParameterError, unknown_name
 from mjcont.mechanism.inputs import INPUT_FIELDS, loaded_inputs
 from mjcont.models.actuators import actuator_name, integrator, is_bush
 from mjcont.models.equalities import stiffness_targets
+from mjcont.models.states import field_array
 from mjcont.results.quantities import Target
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
@@ -212,9 +213,3 @@ def read_target(model: mujoco.MjModel, target: Target) -> np.ndarray:
     owned = target.field in INPUT_FIELDS
     array = np.ravel(loaded_inputs(model)[target.field] if owned else field_array(model, target.field))
     return (array[list(target.index)] - target.offset) / target.factor
-
-
-def field_array(model: mujoco.MjModel, field: str) -> np.ndarray:
-    """Return a model's (or its options') field by name."""
-    owner = model.opt if field.startswith("opt.") else model
-    return np.asarray(getattr(owner, field.removeprefix("opt.")))

@@ -9,8 +9,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mjcont.numerics.equations.differences import CENTRED, PARAMETER, Stencil
-from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.differences import CENTRED, PARAMETER, Stencil, kept_within
+from mjcont.numerics.equations.problem import Array, Range
 from mjcont.results.quantities import Parameter
 
 _FINER = (1e-2, 1e-4)
@@ -78,14 +78,24 @@ def parameter_rate(
     return total / step
 
 
-def difference_rule(parameter: Parameter, value: float, span: float | None = None) -> tuple[Stencil, float]:
-    """Return the difference rule and step for derivatives in a parameter.
+def difference_rule(parameter: Parameter, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
+    """Return the difference rule and step for derivatives in a parameter, which leave neither its bounds nor its range.
 
     Forces are affine in controls, stiffnesses and the like, where two points are exact for any step.
     """
+    hard = parameter.hard_bounds
+    low, high = parameter.bounds if bounds is None else bounds
+    span = high - low
+    if bounds is not None and low <= value <= high:
+        hard = max(low, hard[0]), min(high, hard[1])
+    return kept_within(*_free_rule(parameter, value, span), value, hard)
+
+
+def _free_rule(parameter: Parameter, value: float, span: float) -> tuple[Stencil, float]:
+    """Return the difference rule and step where nothing limits the parameter."""
     if parameter.kind == "control":
         return CENTRED, max(1.0, abs(value))
-    size = max(abs(value), 1e-2 * (span or parameter.bounds[1] - parameter.bounds[0]))
+    size = max(abs(value), 1e-2 * span)
     if parameter.springs:  # a step must not lead to a negative stiffness, which MuJoCo has not
         return (CENTRED, 0.1 * abs(value)) if parameter.affine else (PARAMETER, PARAMETER.step * abs(value))
     if parameter.affine:

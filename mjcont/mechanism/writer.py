@@ -14,7 +14,8 @@ from mjcont.mechanism.declarations import setting
 from mjcont.mechanism.geometry import Geometry, NotCompiled, copy_geometry
 from mjcont.mechanism.inputs import INPUT_FIELDS, DataInputs
 from mjcont.mechanism.parameters import GRAVITY_ANGLE, LOAD_FACTOR
-from mjcont.mechanism.paths import field_array
+from mjcont.models.quiet import quiet
+from mjcont.models.states import field_array
 from mjcont.results.quantities import Parameter
 
 
@@ -179,7 +180,8 @@ class FieldWriter:
             model_changed |= any(p.kind in ("field", "switch", "gravity") for p in members)
         self.inputs.settle()
         if constants:
-            mujoco.mj_setConst(self.model, self._data)
+            with quiet:
+                mujoco.mj_setConst(self.model, self._data)
         self.version += model_changed
 
     def _group(self, parameters: Mapping[str, Parameter], name: str) -> tuple[str, ...]:

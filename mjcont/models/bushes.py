@@ -33,6 +33,7 @@ from mjcont.models.bushsections import (
 from mjcont.models.equalities import equality_name, springs_of
 from mjcont.models.impedance import impedance
 from mjcont.models.mjcf import Document, Element, elements, exact_text, numbers
+from mjcont.models.quiet import heard, quiet_data
 from mjcont.models.states import keyframes
 from mjcont.models.topology import Closure, Frame, constraint_closures, gap, plane_normal
 
@@ -181,7 +182,8 @@ def _source(model: str | Path | mujoco.MjSpec) -> tuple[str, Path | None]:
         if folder is None or "<include" not in text:
             return text, folder
         try:
-            return exact_text(mujoco.MjSpec.from_file(str(model))), folder
+            with heard():
+                return exact_text(mujoco.MjSpec.from_file(str(model))), folder
         except (ValueError, mujoco.FatalError) as error:
             raise ModelError(f"model '{model}': MuJoCo rejects it: {' '.join(str(error).split())}") from error
     folder = Path(model.modelfiledir) if model.modelfiledir else None
@@ -264,7 +266,7 @@ def _edit(
     constants: tuple[float, float],
     frame: str,
 ) -> Document:
-    data = mujoco.MjData(model)
+    data = quiet_data(model)
     mujoco.mj_kinematics(model, data)
     made = Made(
         tuple(n for joint in pins for n in _add_slides(document, model, data, joint, frame)),

@@ -11,20 +11,20 @@ import numpy as np
 
 from mjcont.errors import ModelError, ModelWarning, ParameterError
 from mjcont.models.actuators import actuator_name, follower, integrator
+from mjcont.models.numbers import refuse_invalid
+from mjcont.models.states import element_name
 from mjcont.results.quantities import FRICTION
 
 _DISABLE = mujoco.mjtDisableBit
 _OBJ = mujoco.mjtObj
 _SHOWN = 6
-# fields that may be infinite: ranges, and what MuJoCo only carries
-_MAY_BE_INFINITE = ("range", "user", "numeric_data")
 
 
 def refuse_unsupported(model: mujoco.MjModel) -> None:
     """Raise a ModelError for features whose equilibria this version cannot compute, saying what to do instead."""
     if model.nv == 0:
         raise ModelError("the model has no degree of freedom, so nothing in it can find a place to rest: add a joint")
-    _refuse_no_numbers(model)
+    refuse_invalid(model)
     if model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP:
         raise ModelError('sleeping bodies make equilibria path dependent: remove <flag sleep="enable"/>')
     if np.any(model.jnt_springyield > 0) or np.any(model.tendon_springyield > 0):
@@ -34,18 +34,6 @@ def refuse_unsupported(model: mujoco.MjModel) -> None:
     for plugin in np.flatnonzero(model.plugin_statenum > 0):
         name = mujoco.mj_id2name(model, _OBJ.mjOBJ_PLUGIN, int(plugin)) or f"plugin{plugin}"
         raise ModelError(f"plugin '{name}' has states of its own, whose rest is unknown: remove it from the model")
-
-
-def _refuse_no_numbers(model: mujoco.MjModel) -> None:
-    """Raise a ModelError where a field of the model holds NaN, or infinity: MuJoCo reads both from XML."""
-    for owner in (model, model.opt):
-        for name in dir(owner):
-            entries = getattr(owner, name) if not name.startswith("_") else None
-            if not isinstance(entries, float | np.ndarray) or np.asarray(entries).dtype.kind != "f":
-                continue
-            infinite_too = not name.endswith(_MAY_BE_INFINITE)
-            if np.isnan(entries).any() or (infinite_too and np.isinf(entries).any()):
-                raise ModelError(f"the model's {name} holds a value that is no finite number: correct it in the model")
 
 
 def _refuse_actuator(model: mujoco.MjModel, actuator: int) -> None:
@@ -154,9 +142,9 @@ def _with_dry_friction(model: mujoco.MjModel) -> Iterator[str]:
     if model.opt.disableflags & (_DISABLE.mjDSBL_CONSTRAINT | _DISABLE.mjDSBL_FRICTIONLOSS):
         return
     for j in dict.fromkeys(int(j) for j in model.dof_jntid[model.dof_frictionloss > 0]):
-        yield f"joint {_name(model, _OBJ.mjOBJ_JOINT, j)}"
+        yield f"joint {element_name(model, _OBJ.mjOBJ_JOINT, j)}"
     for t in np.flatnonzero(model.tendon_frictionloss > 0):
-        yield f"tendon {_name(model, _OBJ.mjOBJ_TENDON, int(t))}"
+        yield f"tendon {element_name(model, _OBJ.mjOBJ_TENDON, int(t))}"
 
 
 def _with_contact_friction(model: mujoco.MjModel) -> Iterator[str]:
@@ -186,8 +174,4 @@ def touching(model: mujoco.MjModel) -> Iterable[tuple[int, int]]:
 
 
 def _pair(model: mujoco.MjModel, i: int, j: int) -> str:
-    return f"{_name(model, _OBJ.mjOBJ_GEOM, j)} on {_name(model, _OBJ.mjOBJ_GEOM, i)}"
-
-
-def _name(model: mujoco.MjModel, kind: mujoco.mjtObj, index: int) -> str:
-    return mujoco.mj_id2name(model, kind, index) or f"{kind.name.removeprefix('mjOBJ_').lower()}{index}"
+    return f"{element_name(model, _OBJ.mjOBJ_GEOM, j)} on {element_name(model, _OBJ.mjOBJ_GEOM, i)}"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import warnings
 from importlib import resources
 from pathlib import Path
 from typing import NamedTuple
@@ -13,6 +12,7 @@ import mujoco
 from mjcont.errors import ModelError
 from mjcont.models import assets
 from mjcont.models.mjcf import exact_text
+from mjcont.models.quiet import heard
 
 _OTHER_FILES = re.compile(r"<(include|model)\b")
 
@@ -59,9 +59,10 @@ def read_source(source: str | Path) -> tuple[str, Path | None]:
 def parse(text: str, folder: Path | None, label: str) -> mujoco.MjSpec:
     """Return the spec of an XML text; relative files are looked up in `folder`."""
     try:
-        if folder is not None and _OTHER_FILES.search(text):
-            return mujoco.MjSpec.from_file(label)
-        spec = mujoco.MjSpec.from_string(text)
+        with heard():
+            if folder is not None and _OTHER_FILES.search(text):
+                return mujoco.MjSpec.from_file(label)
+            spec = mujoco.MjSpec.from_string(text)
     except (ValueError, mujoco.FatalError) as error:
         raise ModelError(f"model {label}: MuJoCo rejects it: {_one_line(error)}") from error
     if folder is not None:
@@ -69,12 +70,17 @@ def parse(text: str, folder: Path | None, label: str) -> mujoco.MjSpec:
     return spec
 
 
-def compile_spec(spec: mujoco.MjSpec) -> mujoco.MjModel:
-    """Compile a spec, turning MuJoCo's error into ours."""
+def compile_spec(spec: mujoco.MjSpec, notes: list[str] | None = None) -> mujoco.MjModel:
+    """Compile a spec, turning MuJoCo's error into ours and adding what it warns of to `notes`."""
+    told: list[str] = []
     try:
-        return spec.compile()
+        with heard() as told:
+            return spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise ModelError(f"model '{spec.modelname}': MuJoCo cannot compile it: {_one_line(error)}") from error
+    finally:
+        if notes is not None:
+            notes += (f"MuJoCo: {message}" for message in told)
 
 
 def load(source: str | Path) -> Loaded:
@@ -83,19 +89,18 @@ def load(source: str | Path) -> Loaded:
     The XML is the text as written, or flattened where it needs other files; what needs a missing file is left out.
     """
     text, folder = read_source(source)
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        spec = parse(text, folder, "XML text" if folder is None else str(source))
-        place = (folder or Path()).resolve()
-        notes, dropped = assets.read_notes(spec), assets.drop_missing(spec, place)
-        rewritten = assets.anchor_files(spec, place) or bool(dropped) or bool(_OTHER_FILES.search(text))
+    spec = parse(text, folder, "XML text" if folder is None else str(source))
+    place = (folder or Path()).resolve()
+    kept, dropped = assets.read_notes(spec), assets.drop_missing(spec, place)
+    rewritten = assets.anchor_files(spec, place) or bool(dropped) or bool(_OTHER_FILES.search(text))
+    told: list[str] = []
+    model = compile_spec(spec, told)
+    notes = tuple(dict.fromkeys((*kept, *dropped, *told)))
+    if rewritten:
+        assets.write_notes(spec, notes)
+        text = exact_text(spec)
+        spec, place = parse(text, None, "with everything it includes"), Path()
         model = compile_spec(spec)
-        notes = tuple(dict.fromkeys((*notes, *dropped, *(f"MuJoCo: {_one_line(w.message)}" for w in caught))))
-        if rewritten:
-            assets.write_notes(spec, notes)
-            text = exact_text(spec)
-            spec, place = parse(text, None, "with everything it includes"), Path()
-            model = compile_spec(spec)
     return Loaded(model, text, notes, spec, place if folder is not None and not rewritten else None)
 
 

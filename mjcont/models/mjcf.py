@@ -11,6 +11,8 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 
+from mjcont.models.quiet import heard
+
 _DIGITS = 17
 
 Element = ElementTree.Element  # a comment is one whose tag is a function
@@ -21,15 +23,16 @@ def exact_text(spec: mujoco.MjSpec) -> str:
     library = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob("libmujoco*"), "")) or None)
     setter = getattr(library, "_mjPRIVATE__set_xml_precision", None)
     getter = getattr(library, "_mjPRIVATE__get_xml_precision", None)
-    spec.compile()
-    if setter is None or getter is None:
-        return str(spec.to_xml())
-    before = getter()
-    setter(ctypes.c_int(_DIGITS))
-    try:
-        return str(spec.to_xml())
-    finally:
-        setter(ctypes.c_int(before))
+    with heard():
+        spec.compile()
+        if setter is None or getter is None:
+            return str(spec.to_xml())
+        before = getter()
+        setter(ctypes.c_int(_DIGITS))
+        try:
+            return str(spec.to_xml())
+        finally:
+            setter(ctypes.c_int(before))
 
 
 class Document:

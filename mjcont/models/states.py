@@ -46,7 +46,8 @@ def keyframes(model: mujoco.MjModel) -> dict[str, np.ndarray]:
 
 def checked_state(model: mujoco.MjModel, state: Any) -> np.ndarray:
     """Return a state that a user gives as an array, (nq,)."""
-    return finite_array(f"model '{model_name(model)}': state", state, (model.nq,))
+    labels = [name for name, _ in state_labels(model)]
+    return finite_array("state", state, (model.nq,), labels=labels, owner=f"for model '{model_name(model)}'")
 
 
 def state_labels(model: mujoco.MjModel) -> list[tuple[str, str]]:
@@ -62,3 +63,14 @@ def state_labels(model: mujoco.MjModel) -> list[tuple[str, str]]:
         name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, j) or f"joint{j}"
         labels += [(name + suffix, unit) for suffix, unit in parts[_JOINT(model.jnt_type[j])]]
     return labels
+
+
+def field_array(model: mujoco.MjModel, field: str) -> np.ndarray:
+    """Return a model's (or its options') field by name."""
+    owner = model.opt if field.startswith("opt.") else model
+    return np.asarray(getattr(owner, field.removeprefix("opt.")))
+
+
+def element_name(model: mujoco.MjModel, kind: mujoco.mjtObj, index: int) -> str:
+    """Return an element's name, made up if it has none."""
+    return mujoco.mj_id2name(model, kind, index) or f"{kind.name.removeprefix('mjOBJ_').lower()}{index}"

@@ -17,6 +17,7 @@ import numpy as np
 
 from mjcont.models.actuators import is_bush
 from mjcont.models.equalities import KINDS, equality_name
+from mjcont.models.quiet import quiet_data
 
 _JOINT, _EQ, _OBJ = mujoco.mjtJoint, mujoco.mjtEq, mujoco.mjtObj
 _DISABLE = mujoco.mjtDisableBit
@@ -237,7 +238,7 @@ def plane_normal(model: mujoco.MjModel, bodies: Sequence[int]) -> np.ndarray | N
     kinds = {_JOINT(model.jnt_type[j]) for j in joints}
     if not joints or kinds & {_JOINT.mjJNT_BALL, _JOINT.mjJNT_FREE} or _JOINT.mjJNT_HINGE not in kinds:
         return None
-    data = mujoco.MjData(model)
+    data = quiet_data(model)
     mujoco.mj_kinematics(model, data)
     hinges = [data.xaxis[j] for j in joints if model.jnt_type[j] == _JOINT.mjJNT_HINGE]
     slides = [data.xaxis[j] for j in joints if model.jnt_type[j] == _JOINT.mjJNT_SLIDE]
@@ -279,7 +280,7 @@ def _posed(model: mujoco.MjModel, qpos: np.ndarray | None) -> mujoco.MjData:
     private.opt.disableflags &= ~int(_DISABLE.mjDSBL_CONSTRAINT | _DISABLE.mjDSBL_EQUALITY)
     for flag in (_DISABLE.mjDSBL_CONTACT, _DISABLE.mjDSBL_LIMIT, _DISABLE.mjDSBL_FRICTIONLOSS):
         private.opt.disableflags |= int(flag)
-    data = mujoco.MjData(private)
+    data = quiet_data(private)
     if qpos is not None:
         data.qpos[:] = qpos
     mujoco.mj_forward(private, data)
@@ -300,7 +301,7 @@ def _bush_row(model: mujoco.MjModel, data: mujoco.MjData, actuator: int) -> np.n
 
 def gap(model: mujoco.MjModel, closure: Closure, qpos: np.ndarray | None = None) -> float:
     """Return how far a closure's points are apart at a pose, in m: in their plane, or along a bush's elements."""
-    data = mujoco.MjData(model)
+    data = quiet_data(model)
     if qpos is not None:
         data.qpos[:] = qpos
     mujoco.mj_fwdPosition(model, data)

@@ -25,7 +25,8 @@ from mjcont.errors import MjcontError, ParameterError
 from mjcont.mechanism.batches import load_side
 from mjcont.mechanism.inputs import DataInputs
 from mjcont.mechanism.mechanism import Mechanism
-from mjcont.motion.stepping import INTEGRATORS, quiet
+from mjcont.models.quiet import quiet, quiet_data
+from mjcont.motion.stepping import INTEGRATORS
 from mjcont.numerics.equations.algebra import singular
 from mjcont.numerics.equations.problem import Array, Pencil
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
@@ -115,7 +116,7 @@ def verify_stability(
             checks.append(_check(branch, row, math.nan, 0.0, UNRESOLVED, probe))
         else:
             probes.append(probe)
-    with quiet():
+    with quiet:
         for group in _groups(probes):
             rates = _measure(mechanism, group, nthread or os.cpu_count() or 1)
             checks += [_judge(branch, p, *r, tolerance) for p, r in zip(group, rates, strict=True)]
@@ -191,7 +192,7 @@ def _one_piece(mechanism: Mechanism, model: mujoco.MjModel, inputs: DataInputs, 
     """Whether the same limits and contacts carry load throughout motions of the size of `q` and its growth."""
     if not mechanism.constrained:
         return True
-    data, sides = mujoco.MjData(model), set()
+    data, sides = quiet_data(model), set()
     inputs.put(data)
     for phase in (0.0, 1.0, 1.0j, -1.0, -1.0j):
         away = phase * math.exp(_E_FOLDS) * q

@@ -16,6 +16,7 @@ from mujoco.batch import Batch
 from scipy.integrate import solve_ivp
 
 from mjcont.curves.collect import make_point
+from mjcont.models.quiet import quiet
 from mjcont.numerics.equations.newton import solve
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.system import System
@@ -87,7 +88,8 @@ class _MujocoMotion:
         """Go on for a chunk; return its states and its largest scaled speed."""
         length = int(self._chunk)
         self._chunk = min(_GROWTH * self._chunk, _LONGEST_CHUNK)
-        out = self._batch.rollout(length, control=np.tile(self._ctrl, (1, length, 1)), record=("qpos", "qvel"))
+        with quiet:
+            out = self._batch.rollout(length, control=np.tile(self._ctrl, (1, length, 1)), record=("qpos", "qvel"))
         states, velocities = out["qpos"][0].copy(), out["qvel"][0].copy()
         self.x, self.v = states[-1], velocities[-1]
         self.time += length * self._step

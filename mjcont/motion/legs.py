@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.numerics.equations.differences import CENTRED, PARAMETER, Stencil
-from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Values
+from mjcont.numerics.equations.differences import CENTRED, PARAMETER, Stencil, kept_within
+from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Values
 from mjcont.results.branch import Branch
 from mjcont.results.points import Column, special_from_row
 from mjcont.results.quantities import Parameter
@@ -67,29 +67,32 @@ class Leg:
         """Return f at states (m, nq), a parameter having a value of its own in each (m,), shape (m, n)."""
         return np.array([self.residual(x, {**values, name: v}) for x, v in zip(states, column.tolist(), strict=True)])
 
-    def linearize_along(self, states: Array, values: Values, name: str, column: Array) -> None:
+    def linearize_along(
+        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
+    ) -> None:
         """Return None: a fraction moves several parameters."""
-        del states, values, name, column
+        del states, values, name, column, bounds
 
     def linearize(
-        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
+        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
     ) -> Linearization:
         """Return f, df/dx and df/dp, for the fraction by the chain rule."""
-        del spans
         names = tuple(self.first) if FRACTION in wrt else tuple(wrt)
-        widths = [abs(self.last[n] - self.first[n]) if n in self.first else 1.0 for n in names]
-        lin = self.problem.linearize(x, self.at(values), names, accurate=accurate, spans=widths)
+        own = dict(zip(wrt, ranges or [None] * len(wrt), strict=True))
+        along = {n: (min(self.first[n], self.last[n]), max(self.first[n], self.last[n])) for n in self.first}
+        within = [along.get(n, own.get(n)) for n in names]
+        lin = self.problem.linearize(x, self.at(values), names, accurate=accurate, ranges=within)
         if FRACTION not in wrt:
             return lin
         slope = lin.par @ np.array([self.last[n] - self.first[n] for n in names])
         return Linearization(lin.f, lin.jac, slope[:, None])
 
-    def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
+    def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""
         if name != FRACTION:
-            return self.problem.parameter_stencil(name, value, span)
+            return self.problem.parameter_stencil(name, value, bounds)
         affine = all(getattr(self.problem.parameter(n), "affine", False) for n in self.first)
-        return (CENTRED, 1e-2) if affine else (PARAMETER, PARAMETER.step)
+        return kept_within(*((CENTRED, 1e-2) if affine else (PARAMETER, PARAMETER.step)), value, (0.0, 1.0))
 
     def pencil(self, x: Array, values: Values, jac: Any) -> Pencil:
         """Return the matrices whose eigenvalues tell stability."""

@@ -159,8 +159,7 @@ def check_range(parameter: Parameter, series: Array, times: Array) -> None:
     if outside.any():
         i = int(np.argmax(outside))
         raise BoundsError(
-            f"input '{parameter.name}' is {series[i]:g} at t = {times[i]:g} s, outside the actuator's ctrlrange "
-            f"[{low:g}, {high:g}], where MuJoCo would clamp it"
+            f"input '{parameter.name}' is {series[i]:g} at t = {times[i]:g} s, outside {parameter.limits}"
         )
 
 

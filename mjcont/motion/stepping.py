@@ -7,8 +7,7 @@ written before each step, one run after the other.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -21,6 +20,7 @@ from mjcont.errors import ParameterError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.mechanism.parameters import GRAVITY_ANGLE, LOAD_FACTOR
 from mjcont.mechanism.writer import FieldWriter, Gravity
+from mjcont.models.quiet import quiet
 from mjcont.motion.signals import Controller, Observed, Signal, check_range, controlled
 from mjcont.numerics.equations.problem import Array
 
@@ -91,17 +91,6 @@ class Track:
             series.append(self.held.get(name, 0.0))
 
 
-@contextmanager
-def quiet() -> Iterator[None]:
-    """Keep MuJoCo's warnings about diverging motion off the terminal: histories say it themselves."""
-    before = mujoco.get_mju_user_warning()
-    mujoco.set_mju_user_warning(lambda message: None)
-    try:
-        yield
-    finally:
-        mujoco.set_mju_user_warning(before)
-
-
 def run(
     mechanism: Mechanism,
     cases: Sequence[Case],
@@ -120,7 +109,7 @@ def run(
     late = bool(model.actuator_delay.any())
     slow = [i for i, c in enumerate(cases) if late or _changes_fields(mechanism, c)]
     fast = [i for i in range(len(cases)) if i not in set(slow)]
-    with quiet():
+    with quiet:
         if fast:
             batched = _Batched(mechanism, model, [cases[i] for i in fast], [tracks[i] for i in fast], grid, nthread)
             _until_interrupted(partial(batched.run, rest), batched.tracks)

@@ -23,12 +23,20 @@ def verdict(finding: Finding) -> str:
     return "holds" if finding.holds else "does not hold"
 
 
+def headline(results: Sequence[FigureResult]) -> str:
+    """Return how many findings hold and what failed, whose findings nobody knows, as a clause."""
+    drawn = [r for r in results if not r.reason]
+    findings = [f for r in drawn for f in r.findings]
+    studies = sum(isinstance(r.figure, str) for r in drawn)
+    where = f"{len(drawn) - studies} figures" + (f" and {studies} extended studies" if studies else "")
+    failed = [r.label for r in results if r.reason]
+    rest = f"; {len(failed)} failed, with findings unknown: {', '.join(failed)}" if failed else ""
+    return f"{sum(f.holds for f in findings)} of {len(findings)} findings hold in {where}{rest}"
+
+
 def _heading(results: Sequence[FigureResult], versions: Mapping[str, str]) -> tuple[str, str]:
-    findings = [f for r in results for f in r.findings]
-    studies = sum(isinstance(r.figure, str) for r in results)
-    where = f"{len(results) - studies} figures" + (f" and {studies} extended studies" if studies else "")
-    count = f"{sum(f.holds for f in findings)} of {len(findings)} findings hold in {where}"
-    return "The paper's figures, drawn by mjcont", f"{count}. " + ", ".join(f"{k} {v}" for k, v in versions.items())
+    made_with = ", ".join(f"{k} {v}" for k, v in versions.items())
+    return "The paper's figures, drawn by mjcont", f"{headline(results)}. {made_with}"
 
 
 def markdown(results: Sequence[FigureResult], versions: Mapping[str, str]) -> str:

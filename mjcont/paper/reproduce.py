@@ -33,7 +33,7 @@ from mjcont.errors import MjcontError, NameLookupError
 from mjcont.models.loading import models_folder
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.findings import FigureResult, Finding, label_of, stem
-from mjcont.paper.report import as_html, markdown, verdict
+from mjcont.paper.report import as_html, headline, markdown, verdict
 from mjcont.results.branch import Branch
 from mjcont.results.files import write_atomically
 
@@ -155,9 +155,9 @@ def draw(
         raise MjcontError(f"cannot make the folder {out}: {error.strerror or error}") from error
     stamps = {n: _stamp(n) for n in dict.fromkeys([*covered, *chosen])}
     results = {n: r for n in stamps if (r := _up_to_date(out, n, stamps[n])) is not None}
-    for n in [] if force else [n for n in chosen if n in results]:
+    todo = [n for n in chosen if force or n not in results or results[n].reason]
+    for n in [n for n in chosen if n not in todo]:
         say(f"{results[n]} (up to date)")
-    todo = [n for n in chosen if force or n not in results]
     try:
         for result in _draw_all(todo, out, stamps, jobs or os.cpu_count() or 1):
             results[result.figure] = result
@@ -166,6 +166,7 @@ def draw(
         done = [results[n] for n in stamps if n in results]
         _write(out / "report.md", markdown(done, versions()))
         report = _write(out / "report.html", as_html(done, versions()))
+    say(headline(done))
     say(f"report: {report}")
     return ReproduceResult({n: results[n] for n in chosen}, report)
 
@@ -200,6 +201,7 @@ def _draw_all(todo: Sequence[int | str], out: Path, stamps: dict[int | str, str]
                 result = _read(out, n)
                 if result is None:
                     result = _result(n, _script(n), (), f"its process ended with code {process.exitcode}", stamps[n])
+                    _keep(out, result)
                 yield result
     finally:
         for _, process in running.values():
@@ -238,8 +240,7 @@ def _draw(figure: int | str, script: Path, out: Path, stamp: str) -> None:
             raise MjcontError(f"{script.name} drew no {png.name}")
     except Exception as error:
         findings, reason = (), _one_line(error)
-    text = json.dumps(asdict(_result(figure, script, findings, reason, stamp)), indent=2) + "\n"
-    _write(record, text)
+    _keep(out, _result(figure, script, findings, reason, stamp))
 
 
 def load_script(script: Path) -> ModuleType:
@@ -285,6 +286,11 @@ def _write(path: Path, text: str) -> Path:
     return write_atomically(path, write)
 
 
+def _keep(out: Path, result: FigureResult) -> None:
+    """Write a result's record."""
+    _write(_record(out, result.figure), json.dumps(asdict(result), indent=2) + "\n")
+
+
 def _read(out: Path, figure: int | str) -> FigureResult | None:
     try:
         data: dict[str, Any] = json.loads(_record(out, figure).read_text(encoding="utf-8"))
@@ -294,8 +300,9 @@ def _read(out: Path, figure: int | str) -> FigureResult | None:
 
 
 def _up_to_date(out: Path, figure: int | str, stamp: str) -> FigureResult | None:
+    """Return the result of an earlier run with the same script, models and sources, a failure among them."""
     result = _read(out, figure)
-    fresh = result is not None and result.stamp == stamp and not result.reason and (out / result.image).is_file()
+    fresh = result is not None and result.stamp == stamp and (bool(result.reason) or (out / result.image).is_file())
     return result if fresh else None
 
 

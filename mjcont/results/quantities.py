@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +12,8 @@ import numpy as np
 from mjcont.errors import BoundsError, ParameterError
 
 FRICTION = ("frictionless", "refuse")
+# products of a few larger numbers overflow
+LARGEST = 1e100
 
 # fields in which the forces are affine, so that two points give an exact derivative
 _AFFINE = frozenset(
@@ -75,9 +77,9 @@ class Parameter:
     targets : tuple of Target
         Empty for gravity_angle and load_factor, which act together on the gravity vector, and for "spec".
     hard_bounds : tuple of float
-        An input's range in MuJoCo, outside which it would be clamped.
+        Outside this range there is no such model, or MuJoCo would take another value.
     limit : str
-        The words for that range.
+        The words for that range, {range} in the place of its numbers.
     edit : callable, optional
         Of kind "spec": writes a value into a copy of the model's spec, which is then compiled.
     source : str
@@ -123,7 +125,7 @@ class Parameter:
         if self.springs:
             return "the positive numbers, where a constraint is a spring"
         low, high = self.hard_bounds
-        return f"{self.limit} [{low:g}, {high:g}], where MuJoCo would clamp it"
+        return self.limit.format(range=f"[{low:g}, {high:g}]")
 
     @property
     def springs(self) -> bool:
@@ -178,37 +180,45 @@ class Observable:
 
 
 def finite(what: str, value: Any) -> float:
-    """Return a number as a float; ParameterError unless it is one, and finite. `what` begins the message."""
+    """Return a number as a float; ParameterError unless it is one with which one can compute. `what` begins it."""
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
         number = math.nan
-    if not math.isfinite(number):
-        raise ParameterError(f"{what} must be a finite number, got {value}")
+    if not abs(number) <= LARGEST:
+        size = f", larger than {LARGEST:g} (products of such numbers overflow)" if math.isfinite(number) else ""
+        raise ParameterError(f"{what} must be a finite number, got {value}{size}")
     return number
 
 
-def finite_array(what: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
-    """Return an array of a shape as floats; ParameterError unless it has that shape and all numbers are finite."""
+def finite_array(
+    what: str, value: Any, shape: tuple[int, ...], *, labels: Sequence[str] = (), owner: str = ""
+) -> np.ndarray:
+    """Return an array of a shape as floats; ParameterError unless one can compute with all its numbers.
+
+    `labels` name its entries, and `owner` says what it belongs to, a clause.
+    """
     try:
         found = np.array(value, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
         raise ParameterError(f"{what} must be an array of numbers: {error}") from error
     if found.shape != shape:
-        raise ParameterError(f"{what} must have shape {shape}, got {found.shape}")
-    if not np.isfinite(found).all():
-        raise ParameterError(f"{what} must hold finite numbers, got {found}")
+        raise ParameterError(f"{what} must have shape {shape}{owner and ' ' + owner}, got {found.shape}")
+    for label, number in zip(labels, found.tolist(), strict=False):
+        finite(f"{what}: {label}", number)
+    if not (np.abs(found) <= LARGEST).all():
+        raise ParameterError(f"{what} must hold finite numbers within +-{LARGEST:g}, got {found}")
     return found
 
 
 def finite_pair(what: str, bounds: Any) -> tuple[float, float]:
-    """Return two numbers low < high, finite as their distance is; BoundsError otherwise."""
+    """Return two numbers low < high with which one can compute; BoundsError otherwise."""
     try:
         low, high = (float(b) for b in bounds)
     except (TypeError, ValueError, OverflowError) as error:
         raise BoundsError(f"{what} must be two numbers (low, high), got {bounds!r}") from error
-    if not (low < high and math.isfinite(high - low)):
-        raise BoundsError(f"{what} must be finite with low < high, got ({low:g}, {high:g})")
+    if not -LARGEST <= low < high <= LARGEST:
+        raise BoundsError(f"{what} must be finite with low < high, within +-{LARGEST:g}, got ({low:g}, {high:g})")
     return low, high
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import mjcont as mc
+from mjcont.commands import cli
 from mjcont.paper import reproduce as module
 from mjcont.paper.findings import Finding
 from mjcont.paper.reproduce import available, distances, load_script, reproduce, whole
@@ -73,13 +74,38 @@ def test_a_figure_that_fails_or_crashes_harms_no_other(scripts, tmp_path):
     lines: list[str] = []
     result = reproduce(None, tmp_path / "out", jobs=2, say=lines.append)
     assert result.failed == [2, 4]
-    assert lines[-1] == f"report: {result.report}"
-    assert sorted(lines[:-1]) == [
+    headline = "1 of 2 findings hold in 1 figures; 2 failed, with findings unknown: figure 2, figure 4"
+    assert lines[-2:] == [headline, f"report: {result.report}"]
+    assert sorted(lines[:-2]) == [
         "figure 1: 1 of 2 findings hold",
         "figure 2: failed: ValueError: first line second line",
         "figure 4: failed: its process ended with code 7",
     ]
-    assert "Failed: ValueError: first line second line" in result.report.read_text()
+    for text in (result.report.read_text(), (tmp_path / "out" / "report.md").read_text()):
+        assert headline in text
+        assert "ValueError: first line second line" in text
+        assert "its process ended with code 7" in text
+
+
+@pytest.mark.parametrize("script", [BAD, DEAD], ids=["error", "crash"])
+def test_a_failure_of_an_earlier_run_still_counts(scripts, tmp_path, script):
+    (scripts / "fig02.py").write_text(script)
+    reproduce([2], tmp_path, say=quiet)
+    assert reproduce([1], tmp_path, say=quiet).failed == []
+    report = (tmp_path / "report.md").read_text()
+    assert "1 of 2 findings hold in 1 figures; 1 failed, with findings unknown: figure 2." in report
+
+
+def test_figures_that_all_succeed_have_a_plain_headline(scripts, tmp_path):
+    reproduce([1], tmp_path, say=quiet)
+    assert "\n1 of 2 findings hold in 1 figures. mjcont" in (tmp_path / "report.md").read_text()
+
+
+def test_the_command_ends_with_a_status_of_its_own_where_a_figure_failed(scripts, tmp_path, capsys):
+    (scripts / "fig02.py").write_text(BAD)
+    assert cli.main(["reproduce", "-o", str(tmp_path)]) != 0
+    assert "1 of 2 findings hold in 1 figures; 1 failed, with findings unknown: figure 2" in capsys.readouterr().out
+    assert cli.main(["reproduce", "1", "-o", str(tmp_path)]) == 0
 
 
 def test_a_failed_figure_is_drawn_again_the_next_time(scripts, tmp_path):

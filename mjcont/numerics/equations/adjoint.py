@@ -25,7 +25,16 @@ import numpy as np
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.bordered import Factored, border
 from mjcont.numerics.equations.defining import Fold, FoldCoefficient
-from mjcont.numerics.equations.differences import FIRST, NODES, PARAMETER, SECOND, Stencil, length_of, second_form
+from mjcont.numerics.equations.differences import (
+    FIRST,
+    NODES,
+    PARAMETER,
+    SECOND,
+    inward,
+    kept_within,
+    length_of,
+    second_form,
+)
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.system import Local, System
 
@@ -33,7 +42,6 @@ _RAY = 1e-2
 _STATE_STEP = 3e-3
 _NODES = NODES[NODES != 0.0]
 _FIRST = FIRST[NODES != 0.0]
-_ONE_SIDED = Stencil((0.0, 1.0, 2.0, 3.0, 4.0), (-25 / 12, 4.0, -3.0, 4 / 3, -1 / 4), 1e-3)
 
 
 class Adjoint:
@@ -96,7 +104,7 @@ class Adjoint:
     def equations_slope(self, name: str, conditions: bool) -> Array:
         """Return G_p for a parameter, (equations,); without `conditions` their rows are zero."""
         system = self.system
-        span = system.spans[system.names.index(name)] if name in system.names else None
+        bounds = system.ranges[system.names.index(name)] if name in system.names else None
         here = self.local.values
 
         def equations(value: float) -> Array:
@@ -104,10 +112,11 @@ class Adjoint:
 
         problem: Any = system.problem
         parameter, value = problem.parameters[name], here[name]
-        rule, h = problem.parameter_stencil(name, value, span)
+        rule, h = problem.parameter_stencil(name, value, bounds)
         if parameter.affine and conditions and not self._frozen.all_frozen:  # only forces are affine, not conditions
-            size = max(abs(value), 1e-2 * (span or parameter.bounds[1] - parameter.bounds[0]))
-            rule, h = within(value, PARAMETER.step * size, parameter.hard_bounds)
+            low, high = bounds or parameter.bounds
+            size = max(abs(value), 1e-2 * (high - low))
+            rule, h = kept_within(PARAMETER, PARAMETER.step * size, value, parameter.hard_bounds)
         elif parameter.affine:
             if conditions not in self._base:
                 self._base[conditions] = self._frozen.equations(here, self.y, conditions)
@@ -115,22 +124,6 @@ class Adjoint:
             return (equations(value + h) - self._base[conditions]) / h
         parts = [w * equations(value + o * h) for o, w in zip(rule.offsets, rule.weights, strict=True)]
         return np.sum(parts, axis=0) / h
-
-
-def inward(value: float, step: float, bounds: tuple[float, float]) -> float:
-    """Return a difference step that stays within bounds outside which MuJoCo clamps."""
-    low, high = bounds
-    if value + step <= high:
-        return step
-    return max(-step, low - value) if value - low > high - value else high - value
-
-
-def within(value: float, step: float, bounds: tuple[float, float]) -> tuple[Stencil, float]:
-    """Return a fourth-order rule and step, one-sided where the centred one leaves such bounds."""
-    low, high = bounds
-    if low <= value - 2.0 * step and value + 2.0 * step <= high:
-        return PARAMETER, step
-    return _ONE_SIDED, step if value + 4.0 * step <= high else -step
 
 
 class _Frozen:
@@ -191,7 +184,7 @@ class _Frozen:
             _FIRST @ rows[1 + 6 * i : 7 + 6 * i] / h for i, h in enumerate(sizes)
         ]
         at, position = n, len(system.free)
-        moved = Local(problem, local.x, values, system.names, local.accurate, system.spans)
+        moved = Local(problem, local.x, values, system.names, local.accurate, system.ranges)
         for c in self.conditions:
             aux = y[position : position + len(c.aux)]
             if c is self.fold:
@@ -244,7 +237,7 @@ class _Frozen:
 
         def value(step: Array) -> Array:
             x = problem.retract(local.x, step)
-            return condition.value(Local(problem, x, local.values, system.names, True, system.spans), aux)
+            return condition.value(Local(problem, x, local.values, system.names, True, system.ranges), aux)
 
         columns = [
             _sixth(lambda t, e=e: value(t * e), _STATE_STEP)  # type: ignore[misc]

@@ -88,12 +88,12 @@ class Fold:
 
 def parameter_slope(function: Callable[[Local], float], local: Local, name: str) -> float:
     """Return d function / d p for a parameter, in physical units, by differences in p."""
-    span = local.spans[local.wrt.index(name)] if local.spans else None
-    rule, h = local.problem.parameter_stencil(name, local.values[name], span)
+    bounds = local.ranges[local.wrt.index(name)] if local.ranges else None
+    rule, h = local.problem.parameter_stencil(name, local.values[name], bounds)
     total = 0.0
     for offset, weight in zip(rule.offsets, rule.weights, strict=True):
         values = {**local.values, name: local.values[name] + offset * h}
-        total += weight * function(Local(local.problem, local.x, values, local.wrt, local.accurate))
+        total += weight * function(Local(local.problem, local.x, values, local.wrt, local.accurate, local.ranges))
     return total / h
 
 

@@ -28,11 +28,34 @@ FOURTH_ORDER = Stencil((1.0, -1.0, 2.0, -2.0), (2 / 3, -2 / 3, -1 / 12, 1 / 12),
 CENTRED = Stencil((1.0, -1.0), (0.5, -0.5), 1e-3)
 FORWARD = Stencil((0.0, 1.0), (-1.0, 1.0), 1e-3)
 PARAMETER = Stencil((1.0, -1.0, 2.0, -2.0), (2 / 3, -2 / 3, -1 / 12, 1 / 12), 1e-3)
+_ONE_SIDED = Stencil((0.0, 1.0, 2.0, 3.0, 4.0), (-25 / 12, 4.0, -3.0, 4 / 3, -1 / 4), 1e-3)
 
 
 def stencil(accurate: bool) -> Stencil:
     """Return the stencil for stepping or for locating special points."""
     return FOURTH_ORDER if accurate else SECOND_ORDER
+
+
+def inward(value: float, step: float, bounds: tuple[float, float]) -> float:
+    """Return a difference step, smaller or of the other sign where it would leave bounds."""
+    low, high = bounds
+    if value + step <= high:
+        return step
+    return max(-step, low - value) if value - low > high - value else high - value
+
+
+def kept_within(rule: Stencil, step: float, value: float, bounds: tuple[float, float]) -> tuple[Stencil, float]:
+    """Return a difference rule and step, one-sided of the same order where the centred one would leave bounds.
+
+    A value beyond the bounds is not kept within them.
+    """
+    low, high = bounds
+    reach = max(rule.offsets) * step
+    if low <= value - reach and value + reach <= high or not low <= value <= high:
+        return rule, step
+    if len(rule.offsets) == 2:
+        return FORWARD, inward(value, step, bounds)
+    return _ONE_SIDED, 0.25 * inward(value, 4.0 * step, bounds)
 
 
 @cache

@@ -19,6 +19,8 @@ import numpy as np
 
 Array = np.ndarray
 Values = Mapping[str, float]
+Range = tuple[float, float]
+Ranges = Sequence[Range | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,22 +81,22 @@ class Problem(Protocol):
         ...
 
     def linearize_along(
-        self, states: Array, values: Values, name: str, column: Array
+        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
     ) -> tuple[Array, Array, Array] | None:
         """Return f (m, n), df/dx (m, n, n) and df/dp (m, n) at such states; None where side by side gains nothing."""
         ...
 
     def linearize(
-        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, spans: Sequence[float] = ()
+        self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
     ) -> Linearization:
         """Return f, df/dx and df/dp; `accurate` asks for the error that locating special points needs.
 
-        `spans` are the widths of the ranges in which the parameters `wrt` move, for difference steps where a value
-        is near zero.
+        `ranges` are those in which the parameters `wrt` move: differences do not leave them, and their widths tell
+        the steps where a value is near zero.
         """
         ...
 
-    def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Any, float]:
+    def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Any, float]:
         """Return the difference rule (see `differences.Stencil`) and step for derivatives in a parameter."""
         ...
 

@@ -17,24 +17,29 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.equations.bordered import border, largest_in_rows
-from mjcont.numerics.equations.problem import Array, Pencil, Problem, Values
+from mjcont.numerics.equations.problem import Array, Pencil, Problem, Ranges, Values
 
 _LOG_SPAN = 1e3
 _GRADIENT_STEP = 1e-3
 # a row of J may vanish at a special point: it must not be blown up on the way there
 ROW_GUARD = 1e-3
 _VANISHES = 1e-10
+_EVERYWHERE = (-math.inf, math.inf)
 _BATCHES = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
 
 
 @dataclass(frozen=True, slots=True)
 class Free:
-    """A free parameter and its coordinate: linear, or logarithmic where positive bounds span three decades."""
+    """A free parameter and its coordinate: linear, or logarithmic where positive bounds span three decades.
+
+    `bounded` says whether it is kept within its bounds, or these only tell its size.
+    """
 
     name: str
     low: float
     high: float
     unit: str = ""
+    bounded: bool = True
 
     def show(self, value: float) -> str:
         """Return a value as a sentence shows it, radians in degrees."""
@@ -54,14 +59,18 @@ class Free:
     def value(self, coordinate: float) -> float:
         """Return the value at a coordinate."""
         if self.log:
-            return math.exp(min(coordinate * math.log(self.high / self.low), 700.0))
-        return coordinate * (self.high - self.low)
+            value = math.exp(min(coordinate * math.log(self.high / self.low), 700.0))
+        else:
+            value = coordinate * (self.high - self.low)
+        return min(max(value, self.low), self.high) if self.bounded else value  # no bound is left by rounding
 
     def values(self, coordinates: Array) -> Array:
         """Return the values at many coordinates."""
         if self.log:
-            return np.exp(np.minimum(coordinates * math.log(self.high / self.low), 700.0))
-        return coordinates * (self.high - self.low)
+            values = np.exp(np.minimum(coordinates * math.log(self.high / self.low), 700.0))
+        else:
+            values = coordinates * (self.high - self.low)
+        return values.clip(self.low, self.high) if self.bounded else values
 
     def slope(self, coordinate: float) -> float:
         """Return d value / d coordinate."""
@@ -73,7 +82,7 @@ class Free:
 class Local:
     """What is known of the problem at one (x, p): computed on demand, once."""
 
-    __slots__ = ("_jac", "_lin", "_pencil", "_residual", "accurate", "problem", "spans", "values", "wrt", "x")
+    __slots__ = ("_jac", "_lin", "_pencil", "_residual", "accurate", "problem", "ranges", "values", "wrt", "x")
 
     def __init__(
         self,
@@ -82,10 +91,10 @@ class Local:
         values: Values,
         wrt: Sequence[str],
         accurate: bool,
-        spans: Sequence[float] = (),
+        ranges: Ranges = (),
     ) -> None:
         self.problem, self.x, self.values, self.wrt, self.accurate = problem, x, values, wrt, accurate
-        self.spans = spans
+        self.ranges = ranges
         self._jac: Any = None
         self._lin: Any = None
         self._pencil: Pencil | None = None
@@ -107,7 +116,7 @@ class Local:
     def _linearize(self) -> Any:
         if self._lin is None:
             self._lin = self.problem.linearize(
-                self.x, self.values, self.wrt, accurate=self.accurate, spans=self.spans
+                self.x, self.values, self.wrt, accurate=self.accurate, ranges=self.ranges
             )
         return self._lin
 
@@ -204,10 +213,13 @@ class System:
         self.problem, self.base, self.free = problem, dict(base), tuple(free)
         self.conditions, self.accurate = tuple(conditions), accurate
         self.names = tuple(p.name for p in self.free)
-        self.spans = tuple(p.high - p.low for p in self.free)
+        self.ranges = tuple((p.low, p.high) for p in self.free)
         self.n = problem.n
         self.k = len(self.free) + sum(len(c.aux) for c in self.conditions)
         self.equations = self.n + sum(c.count for c in self.conditions)
+        ends = [(p.coordinate(p.low), p.coordinate(p.high)) if p.bounded else _EVERYWHERE for p in self.free]
+        ends += [_EVERYWHERE] * (self.k - len(self.free))
+        self.lowest, self.highest = np.array(ends).reshape(-1, 2).T
 
     def start_y(self) -> Array:
         """Return y with parameters at their base values and auxiliary unknowns at their starts, (k,)."""
@@ -223,7 +235,7 @@ class System:
 
     def local(self, x: Array, y: Array) -> Local:
         """Return the evaluation at (x, y)."""
-        return Local(self.problem, x, self.values(y), self.names, self.accurate, self.spans)
+        return Local(self.problem, x, self.values(y), self.names, self.accurate, self.ranges)
 
     def locals_along(self, states: Array, column: Array) -> list[Local]:
         """Return the evaluations at states (m, nq) of a system with one free parameter, with its values (m,)."""
@@ -231,7 +243,7 @@ class System:
         for x, value in zip(states, column.tolist(), strict=True):
             merged = self.base.copy()
             merged[name] = value
-            found.append(Local(self.problem, x, merged, self.names, self.accurate, self.spans))
+            found.append(Local(self.problem, x, merged, self.names, self.accurate, self.ranges))
         return found
 
     def residuals_at(self, states: Array, coordinates: Array) -> Array:
@@ -300,18 +312,20 @@ class System:
     def _difference_rows(self, rows: Array, rest: Sequence[Any], local: Local, y: Array) -> None:
         """Fill the rows of conditions without a gradient by centred differences: good enough for Newton's matrix."""
 
-        def conditions_at(step: Array) -> Array:
+        def conditions_at(step: Array) -> tuple[Array, Array]:
             x, y1 = self.move(local.x, y, step)
             moved = self.local(x, y1)
             parts = self._aux(y1)
-            return np.concatenate([c.value(moved, parts[self.conditions.index(c)]) for _, c, _ in rest])
+            return np.concatenate([c.value(moved, parts[self.conditions.index(c)]) for _, c, _ in rest]), y1
 
         gradient = np.empty((sum(c.count for _, c, _ in rest), self.n + self.k))
         for j in range(self.n + self.k):
             h = self._gradient_step(j - self.n, y)
             step = np.zeros(self.n + self.k)
             step[j] = h
-            gradient[:, j] = (conditions_at(step) - conditions_at(-step)) / (2.0 * h)
+            (after, beyond), (before, behind) = conditions_at(step), conditions_at(-step)
+            apart = 2.0 * h if j < self.n else beyond[j - self.n] - behind[j - self.n]  # one-sided at a bound
+            gradient[:, j] = (after - before) / apart
         done = 0
         for at, c, _ in rest:
             rows[at : at + c.count] = gradient[done : done + c.count]
@@ -322,17 +336,22 @@ class System:
         if not 0 <= i < len(self.free):
             return _GRADIENT_STEP
         p, u = self.free[i], float(y[i])
-        _, h = self.problem.parameter_stencil(p.name, p.value(u), p.high - p.low)
+        _, h = self.problem.parameter_stencil(p.name, p.value(u), (p.low, p.high))
         return float(min(_GRADIENT_STEP, max(abs(h / p.slope(u)), 1e-7)))
 
     def move(self, x: Array, y: Array, step: Array) -> tuple[Array, Array]:
-        """Return (x, y) moved by a scaled step (n + k,)."""
-        return self.problem.retract(x, step[: self.n] * self.problem.state_scale), y + step[self.n :]
+        """Return (x, y) moved by a scaled step (n + k,); free parameters stay within their bounds."""
+        moved = np.minimum(np.maximum(y + step[self.n :], self.lowest), self.highest)
+        return self.problem.retract(x, step[: self.n] * self.problem.state_scale), moved
 
     def move_each(self, states: Array, coordinates: Array, steps: Array) -> tuple[Array, Array]:
-        """Return states (m, nq), or one (nq,), and coordinates (m, k) moved by the rows of scaled steps (m, n + k)."""
+        """Return states (m, nq), or one (nq,), and coordinates (m, k) moved by the rows of scaled steps (m, n + k).
+
+        Free parameters stay within their bounds.
+        """
         moves = steps[:, : self.n] * self.problem.state_scale
-        return self.problem.retract_each(states, moves), coordinates + steps[:, self.n :]
+        moved = np.minimum(np.maximum(coordinates + steps[:, self.n :], self.lowest), self.highest)
+        return self.problem.retract_each(states, moves), moved
 
     def admissible(self, x: Array, step: Array) -> Array:
         """Return a scaled step without motions that the problem holds (see `rigid`)."""

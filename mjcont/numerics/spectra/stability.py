@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mjcont.numerics.equations.algebra import symmetric_eigenvalues
-from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.problem import Array, Range, Values
 from mjcont.numerics.equations.system import Local
 from mjcont.numerics.spectra.spectrum import (
     MARGINAL,
@@ -61,19 +61,21 @@ def spectra_of(points: Sequence[CurvePoint]) -> list[Spectrum]:
     return [spectrum_of(p) for p in points]
 
 
-def spectra_at(problem: Any, states: Array, values: Sequence[Values], name: str) -> list[Spectrum]:
-    """Return the spectra at equilibria, states (m, nq), between which the parameter `name` alone differs."""
+def spectra_at(problem: Any, states: Array, values: Sequence[Values], name: str, bounds: Range) -> list[Spectrum]:
+    """Return the spectra at equilibria, states (m, nq), between which one parameter differs, within bounds."""
     found: list[Spectrum] = []
     many = max(_ENTRIES // (2 * problem.n**2), 1)
     for first in range(0, len(states), many):
         part = slice(first, first + many)
-        found += _some_spectra(problem, states[part], values[part], name)
+        found += _some_spectra(problem, states[part], values[part], name, bounds)
     return found
 
 
-def _some_spectra(problem: Any, states: Array, values: Sequence[Values], name: str) -> list[Spectrum]:
+def _some_spectra(
+    problem: Any, states: Array, values: Sequence[Values], name: str, bounds: Range
+) -> list[Spectrum]:
     column = np.array([v[name] for v in values])
-    together = problem.linearize_along(states, values[0], name, column)
+    together = problem.linearize_along(states, values[0], name, column, bounds)
     every = [Local(problem, x, v, (), False) for x, v in zip(states, values, strict=True)]
     jacs = list(together[1]) if together is not None else [local.raw_jac for local in every]
     if not getattr(problem, "passive", False) or not all(symmetric(j) for j in jacs):

@@ -187,15 +187,42 @@ def remembered(point: CurvePoint, step: Array) -> tuple[Earlier, ...]:
     return (Earlier(point.s, -step, point.tangent, point.jac), *older)
 
 
+def aim(system: System, point: CurvePoint, h: float, prediction: Array) -> tuple[int, float, float] | None:
+    """Return where the prediction of a step h leaves the bounds of a free parameter, None where it does not.
+
+    That is the index in y, the bound as a coordinate, and the part of h after which it is met.
+    """
+    ahead = point.y + prediction[system.n :]
+    met: list[tuple[float, int, float]] = []
+    for i in np.flatnonzero((ahead < system.lowest) | (ahead > system.highest)).tolist():
+        bound = float(system.lowest[i] if ahead[i] < system.lowest[i] else system.highest[i])
+
+        def missing(t: float, i: int = i, bound: float = bound) -> float:
+            return float(point.y[i] + predict(point, t)[system.n + i]) - bound
+
+        met.append((brentq(missing, 0.0, h) if missing(0.0) * missing(h) < 0.0 else 0.0, i, bound))
+    if not met:
+        return None
+    t, i, bound = min(met)
+    return i, bound, t
+
+
 def advance(
-    system: System, point: CurvePoint, h: float, settings: Settings, *, fresh: bool = False
+    system: System,
+    point: CurvePoint,
+    h: float,
+    settings: Settings,
+    *,
+    fresh: bool = False,
+    prediction: Array | None = None,
 ) -> CurvePoint | str:
     """Return the next point a step h along the curve, or a sentence that says why the step is refused.
 
     `fresh` takes derivatives at the prediction instead of those of the last point: dearer, but with stiff bushes
-    the soft direction turns by more than the last point's derivatives can tell.
+    the soft direction turns by more than the last point's derivatives can tell. `prediction` is `predict`'s, where it
+    is known.
     """
-    prediction = system.admissible(point.x, predict(point, h))
+    prediction = system.admissible(point.x, predict(point, h) if prediction is None else prediction)
     x, y = system.move(point.x, point.y, prediction)
     extrapolated = not (fresh or system.conditions or sparse.issparse(point.jac))
     expected = _TRUST * point.rate if extrapolated and len(point.past) == _PAST else math.inf
@@ -293,6 +320,24 @@ def turning_fraction(system: System, old: CurvePoint, new: CurvePoint, index: in
     return inside[0] if len(inside) == 1 else 0.5
 
 
+def may_turn_beyond(system: System, old: CurvePoint, new: CurvePoint) -> bool:
+    """Whether a free parameter may leave its bounds and come back between two points within them.
+
+    Judged on the cubic through both, which is not trusted by more than what it goes beyond the points.
+    """
+    for i in range(len(system.free)):
+        a, b = float(old.tangent[system.n + i]), float(new.tangent[system.n + i])
+        if a * b >= 0.0:
+            continue
+        bound = system.highest[i] if a > 0.0 else system.lowest[i]
+        _, p, q = _slope(system, old, new, i)
+        t = turning_fraction(system, old, new, i)
+        ahead = abs((a + (p + q * t / 3.0) * t) * t * (new.s - old.s))
+        if abs(bound - old.y[i]) <= 2.0 * ahead:
+            return True
+    return False
+
+
 def by_contraction(new: CurvePoint, growth: float = _GROWTH) -> float:
     """Return the factor by which the contraction of the corrector lets the step grow."""
     return math.sqrt(_CONTRACTION / max(new.contraction, 1e-3)) if new.iterations > 1 else growth
@@ -310,29 +355,21 @@ def turned_back(system: System, points: Sequence[CurvePoint]) -> CurvePoint:
 
 
 def land(
-    system: System, point: CurvePoint, beyond: CurvePoint, index: int, target: float, settings: Settings
+    system: System, point: CurvePoint, index: int, target: float, h: float, settings: Settings
 ) -> CurvePoint | str:
-    """Return the point between two at which y[index] = target, sought on the cubic through both."""
+    """Return the point about h ahead at which y[index] = target, or a sentence that says why it is not met there."""
     row = np.zeros(system.n + system.k)
     row[system.n + index] = 1.0
-    chord = system.difference(beyond.x, beyond.y, point.x, point.y)
-    span = beyond.s - point.s
-
-    def step(t: float) -> Array:
-        values, slopes = hermite([0.0, 1.0], t)
-        return values[1] * chord + span * (slopes[0] * point.tangent + slopes[1] * beyond.tangent)
-
-    missing = target - float(point.y[index])
-    ends = (-missing, float(step(1.0)[system.n + index]) - missing)
-    t = brentq(lambda t: float(step(t)[system.n + index]) - missing, 0.0, 1.0) if ends[0] * ends[1] < 0 else 0.0
-    x, y = system.move(point.x, point.y, step(t))
-    y = y.copy()
+    prediction = system.admissible(point.x, predict(point, h))
+    x, y = system.move(point.x, point.y, prediction)
     y[index] = target
     c = correct(system, x, y, row, None, settings)
     if c.failure:
         return c.failure
-    new = point_from(c, point.tangent, point.s)
     chord = system.difference(c.x, c.y, point.x, point.y)
+    new = point_from(c, point.tangent, point.s)
+    if length(chord - prediction) > _WANDER * h + _NOISY or new.angle > settings.angle_max:
+        return "the bound was not met along the curve"
     new.s += arc(length(chord), math.cos(new.angle))
     new.past = remembered(point, chord)
     return new

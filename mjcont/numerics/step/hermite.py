@@ -1,5 +1,7 @@
 """Interpolation along a curve: weights of Hermite's polynomial (values and slopes) and of Lagrange's (values).
 
+Polynomials go through the points around a gap, none of them a cluster.
+
 Source: Quarteroni, Sacco, Saleri, Numerical Mathematics (Springer 2007), sections 8.1 and 8.5.
 """
 
@@ -11,6 +13,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from mjcont.numerics.equations.problem import Array
+
+# points nearer to each other than this part of a gap are a cluster: a polynomial through them is noise
+CLUSTER = 0.2
 
 
 def lagrange(nodes: Sequence[float], at: float) -> list[float]:
@@ -65,6 +70,36 @@ def mixed(weights: Array, matrices: Array, windows: Array) -> Array:
     for k in range(windows.shape[1]):
         out += weights[:, k, None, None] * matrices[windows[:, k]]
     return out
+
+
+def node_windows(s: Array, gaps: Array, most: int) -> tuple[Array, Array]:
+    """Return the points through which gaps are interpolated, and how many they are, by the point before the gap.
+
+    They are (N - 1, k) and (N - 1,): of each row of points the first so many count.
+    """
+    lengths, count = np.diff(s), min(most, len(s))
+    first = np.clip(gaps - (count // 2 - 1), 0, len(s) - count)
+    windows, sizes = np.zeros((len(lengths), count), dtype=int), np.zeros(len(lengths), dtype=int)
+    windows[gaps], sizes[gaps] = first[:, None] + np.arange(count), count
+    shortest = np.lib.stride_tricks.sliding_window_view(lengths, count - 1).min(axis=1)
+    for i in gaps[shortest[first] < CLUSTER * lengths[gaps]].tolist():
+        chosen = _apart(s, i, most)
+        windows[i, : len(chosen)], sizes[i] = chosen, len(chosen)
+    return windows, sizes
+
+
+def _apart(s: Array, i: int, most: int) -> list[int]:
+    """Return the points nearest to the gap after i, no cluster among them."""
+    chosen, gap = [i, i + 1], s[i + 1] - s[i]
+    low, high = i - 1, i + 2
+    while len(chosen) < most and (low >= 0 or high < len(s)):
+        before = s[i] - s[low] if low >= 0 else math.inf
+        behind = s[high] - s[i + 1] if high < len(s) else math.inf
+        k = low if before <= behind else high
+        if min(abs(s[k] - s[j]) for j in chosen) >= CLUSTER * gap:
+            chosen.append(k)
+        low, high = (low - 1, high) if k == low else (low, high + 1)
+    return chosen
 
 
 def arc(chord: float, cosine: float) -> float:

@@ -7,7 +7,6 @@ interpolation that one correction takes to the noise floor, so that a row costs 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -17,11 +16,9 @@ from mjcont.numerics.equations.algebra import inverses
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import System, equation_sizes
 from mjcont.numerics.step.arclength import CurvePoint
-from mjcont.numerics.step.hermite import arc, lagrange_each, mixed
+from mjcont.numerics.step.hermite import CLUSTER, arc, lagrange_each, mixed, node_windows
 
 _NODES = 8
-# points nearer to each other than this part of a gap are a cluster: a polynomial through them is noise
-_CLUSTER = 0.2
 # gaps shorter than this, or with ends whose tangents differ by more (as a length), stay as they are
 _SHORT, _TURNED = 1e-7, 0.6
 # rows that are corrected together at least, and entries of their matrices at most
@@ -82,7 +79,7 @@ def rows_between(system: System, points: Sequence[CurvePoint], chord: float) -> 
         return None, 0
     firsts = np.repeat(np.cumsum(counts) - counts, counts)
     fraction = (np.arange(len(after)) - firsts + 1.0) / (counts[after] + 1.0)
-    windows, sizes = _windows(nodes.s, np.flatnonzero(counts))
+    windows, sizes = node_windows(nodes.s, np.flatnonzero(counts), _NODES)
     parts: list[Between] = []
     together = max(_ENTRIES // (system.n + 1) ** 2, _TOGETHER)
     for size in np.unique(sizes[after]).tolist():
@@ -121,41 +118,11 @@ def _counts(nodes: _Nodes, chord: float) -> Array:
     bends = np.where(lengths > _SHORT, turns / np.maximum(lengths, _SHORT), 0.0)
     largest = bends.copy()
     for mine, other in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):
-        near = lengths[other] >= _CLUSTER * lengths[mine]  # curvature grows towards a neighbour that bends more
+        near = lengths[other] >= CLUSTER * lengths[mine]  # curvature grows towards a neighbour that bends more
         largest[mine] = np.maximum(largest[mine], np.where(near, 0.5 * (bends[mine] + bends[other]), 0.0))
     pieces = np.ceil(lengths * np.sqrt(largest / (8.0 * chord)))
     pieces[(lengths <= _SHORT) | (turns > _TURNED)] = 1
     return np.maximum(pieces.astype(int), 1) - 1
-
-
-def _windows(s: Array, gaps: Array) -> tuple[Array, Array]:
-    """Return the points through which gaps are interpolated, and how many they are, by the point before the gap.
-
-    They are (N - 1, k) and (N - 1,): of each row of points the first so many count.
-    """
-    lengths, count = np.diff(s), min(_NODES, len(s))
-    first = np.clip(gaps - (count // 2 - 1), 0, len(s) - count)
-    windows, sizes = np.zeros((len(lengths), count), dtype=int), np.zeros(len(lengths), dtype=int)
-    windows[gaps], sizes[gaps] = first[:, None] + np.arange(count), count
-    shortest = np.lib.stride_tricks.sliding_window_view(lengths, count - 1).min(axis=1)
-    for i in gaps[shortest[first] < _CLUSTER * lengths[gaps]].tolist():
-        chosen = _apart(s, i)
-        windows[i, : len(chosen)], sizes[i] = chosen, len(chosen)
-    return windows, sizes
-
-
-def _apart(s: Array, i: int) -> list[int]:
-    """Return the points nearest to the gap after i, no cluster among them."""
-    chosen, gap = [i, i + 1], s[i + 1] - s[i]
-    low, high = i - 1, i + 2
-    while len(chosen) < _NODES and (low >= 0 or high < len(s)):
-        before = s[i] - s[low] if low >= 0 else math.inf
-        behind = s[high] - s[i + 1] if high < len(s) else math.inf
-        k = low if before <= behind else high
-        if min(abs(s[k] - s[j]) for j in chosen) >= _CLUSTER * gap:
-            chosen.append(k)
-        low, high = (low - 1, high) if k == low else (low, high + 1)
-    return chosen
 
 
 def _settled(system: System, nodes: _Nodes, windows: Array, after: Array, fraction: Array) -> Between:

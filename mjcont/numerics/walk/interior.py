@@ -22,7 +22,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System, equation_sizes
 from mjcont.numerics.step.arclength import CurvePoint, Earlier, falls_between, far_below, pairs_may_turn_twice
-from mjcont.numerics.step.hermite import hermite_each, mixed
+from mjcont.numerics.step.hermite import hermite_each, mixed, node_windows
 
 # points inside a step at most, and points through which they are interpolated
 MOST, _NODES = 95, 6
@@ -147,19 +147,31 @@ def _interpolated(system: System, gaps: Sequence[Gap]) -> _Rows:
     counts = np.array([g.count for g in gaps])
     after = np.repeat(np.arange(len(gaps)), counts)
     part = (np.arange(len(after)) - np.repeat(np.cumsum(counts) - counts, counts) + 1.0) / (counts[after] + 1.0)
-    base, width = after + behind, min(_NODES, len(s))
+    base = after + behind
     at = s[base] + part * (s[base + 1] - s[base])
-    windows = np.clip(base - (width // 2 - 1), 0, len(s) - width)[:, None] + np.arange(width)
-    values, slopes, weights = hermite_each(s[windows] - s[base][:, None], at - s[base])
-    steps = (values[:, :, None] * (ways[windows] - ways[base][:, None])).sum(axis=1)
-    steps += (slopes[:, :, None] * tangents[windows]).sum(axis=1)
+    nodes, sizes = node_windows(s, np.unique(base), _NODES)
+    steps, turned, matrices = np.empty((len(at), ways.shape[1])), np.empty((len(at), ways.shape[1])), []
+    for size in np.unique(sizes[base]).tolist():
+        rows = np.flatnonzero(sizes[base] == size)
+        here, windows = base[rows], nodes[base[rows], :size]
+        values, slopes, weights = hermite_each(s[windows] - s[here][:, None], at[rows] - s[here])
+        steps[rows] = (values[:, :, None] * (ways[windows] - ways[here][:, None])).sum(axis=1)
+        steps[rows] += (slopes[:, :, None] * tangents[windows]).sum(axis=1)
+        turned[rows] = (weights[:, :, None] * tangents[windows]).sum(axis=1)
+        matrices.append((rows, mixed(weights, jacs, windows)))
+    turned /= np.sqrt((turned * turned).sum(axis=1))[:, None]
+    jacs = matrices[0][1] if len(matrices) == 1 else _in_order(matrices)
     starts = [g.old for g in gaps]
     states, coordinates = system.move_each(
         np.array([p.x for p in starts])[after], np.array([p.y for p in starts])[after], steps
     )
-    turned = (weights[:, :, None] * tangents[windows]).sum(axis=1)
-    turned /= np.sqrt((turned * turned).sum(axis=1))[:, None]
-    return _Rows(at, states, coordinates, turned, mixed(weights, jacs, windows))
+    return _Rows(at, states, coordinates, turned, jacs)
+
+
+def _in_order(parts: Sequence[tuple[Array, Array]]) -> Array:
+    """Return matrices that are given with their places, by place."""
+    places, every = (np.concatenate(a) for a in zip(*parts, strict=True))
+    return every[np.argsort(places)]
 
 
 def _corrected(
@@ -221,7 +233,7 @@ def _linearized(system: System, states: Array, coordinates: Array) -> tuple[Arra
     """Return f (m, n) and G_z in scaled unknowns (m, n, n + 1) at states."""
     (p,) = system.free
     column = p.values(coordinates[:, 0])
-    found = system.problem.linearize_along(states, system.base, p.name, column)
+    found = system.problem.linearize_along(states, system.base, p.name, column, (p.low, p.high))
     if found is None:
         every = system.locals_along(states, column)
         jacs = [system.jacobian(local, y) for local, y in zip(every, coordinates, strict=True)]

@@ -19,13 +19,23 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.corner import NEAR, cross
 from mjcont.numerics.points.events import Detector, Located, Retry
 from mjcont.numerics.spectra.stability import tell
-from mjcont.numerics.step.arclength import CurvePoint, advance, by_contraction, land, may_turn_twice, next_step
+from mjcont.numerics.step.arclength import (
+    CurvePoint,
+    advance,
+    aim,
+    by_contraction,
+    land,
+    may_turn_beyond,
+    may_turn_twice,
+    next_step,
+    predict,
+)
 from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.interior import Interior
 from mjcont.numerics.walk.longsteps import LongSteps
 from mjcont.numerics.walk.steps import End, Leap, Status, Step
 
-# below this step a pair of folds is not looked for between two points
+# below this step a pair of folds, or a fold beyond a bound, is not looked for between two points
 _SMALL_FOLDS = 1e-5
 # a curve that ends on the bound where it is already adds no second point there
 _SAME_POINT = 1e-9
@@ -230,22 +240,27 @@ class Walker:
         """Return a step of length h, or why it is refused and the length to try instead."""
         settings = self.long.limits(h) if self.long is not None else self.settings
         far = h > self.settings.ds_max
-        new = advance(self.system, point, h, settings, fresh=self._fresh and not far)
+        prediction = predict(point, h)
+        aimed = aim(self.system, point, h, prediction)
+        if aimed is not None:
+            return self._landed(point, h, *aimed)
+        new = advance(self.system, point, h, settings, fresh=self._fresh and not far, prediction=prediction)
         if isinstance(new, str) and far:
-            new = advance(self.system, point, h, settings, fresh=True)
+            new = advance(self.system, point, h, settings, fresh=True, prediction=prediction)
         if isinstance(new, str):
             shorter = 0.4 * h if self._fresh or far else h
             self._fresh |= not far
             return new, shorter
-        outside = self._outside(new)
-        if outside is None:
-            return Leap(point, new, h, None)
-        landed = land(self.system, point, new, *outside[:2], settings)
+        return Leap(point, new, h, None)
+
+    def _landed(self, point: CurvePoint, h: float, index: int, bound: float, ahead: float) -> Leap | tuple[str, float]:
+        """Return the step that ends on a bound which its prediction meets, or why not and the length to try instead."""
+        settings = self.long.limits(h) if self.long is not None else self.settings
+        landed = land(self.system, point, index, bound, ahead, settings)
         if isinstance(landed, str):
-            return landed, 0.4 * h
-        if landed.s - point.s > 3.0 * h or landed.angle > settings.angle_max:
-            return "the bound was not met along the curve", 0.4 * h
-        return Leap(point, landed, h, End(Status.AT_BOUND, outside[2]))
+            return landed, 0.4 * min(h, max(ahead, 0.1 * h))
+        p = self.system.free[index]
+        return Leap(point, landed, h, End(Status.AT_BOUND, f"{p.name} reached its bound {p.show(p.value(bound))}"))
 
     def _completed(self, leap: Leap, inside: Interior | str) -> Step | tuple[str, float]:
         """Return a step with what lies within, or why it is refused and the length to try instead."""
@@ -284,14 +299,6 @@ class Walker:
             return every[1:]  # type: ignore[return-value]
         return sorted([*located, *every[1:]], key=lambda e: e.point.s if isinstance(e, Located) else e.s)
 
-    def _outside(self, new: CurvePoint) -> tuple[int, float, str] | None:
-        for i, p in enumerate(self.system.free):
-            value = p.value(float(new.y[i]))
-            for bound, beyond in ((p.low, value < p.low), (p.high, value > p.high)):
-                if beyond:
-                    return i, p.coordinate(bound), f"{p.name} reached its bound {p.show(bound)}"
-        return None
-
     def _between(
         self, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector]
     ) -> list[Located]:
@@ -300,6 +307,8 @@ class Walker:
             if detector.changed(old, new):
                 located += detector.locate(old, new, located)
         located = _distinct(located)
+        if not located and new.s - old.s > _SMALL_FOLDS and may_turn_beyond(self.system, old, new):
+            raise Retry("a parameter may turn beyond its bound")
         return sorted(located, key=lambda e: e.point.s)
 
     def _periods(self, start: CurvePoint) -> Array:
