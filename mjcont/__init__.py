@@ -17,6 +17,7 @@ from typing import Any as _Any
 
 from mjcont.errors import (
     BoundsError,
+    FunctionError,
     MjcontError,
     ModelError,
     ModelWarning,
@@ -120,6 +121,7 @@ __all__ = [
     "Equilibria",
     "Equilibrium",
     "FollowedPoint",
+    "FunctionError",
     "History",
     "Jump",
     "LoadPath",

@@ -2,7 +2,7 @@
 
 Angle of link 1 against the force F = 50 cos(t) N, t in degrees, which swings once from +50 N to -50 N and back in
 360 s: (a) lightly and (b) heavily damped. Black: the equilibria, solid where stable, dashed where unstable, with folds
-as circles.
+as circles. Model overcentre_paper, the set of figures 2 to 5.
 """
 
 from __future__ import annotations
@@ -10,23 +10,22 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from _overcentre import BOUNDS, LABELS, equilibria, overcentre
 
 import mjcont as mc
 from mjcont.drawing.plotting import COLORS, new_figure, place_labels, plot, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
-from mjcont.paper.reproduce import Finding, run_script, whole
+from mjcont.paper.reproduce import Finding, run_script
 
-BOUNDS = (-50.0, 50.0)
 DAMPING = (0.01, 10.0)
 CYCLE = 360.0  # s
-PAPER_NAMES = {"LP2": "FP$_1$", "LP1": "FP$_2$"}
 NUMERICS = ({"timestep": 2e-3}, {"integrator": "RK4", "timestep": 5e-3})
 
 
 def main(out: Path) -> list[Finding]:
     """Draw the figure into a folder and return its findings."""
-    mechanism = mc.Mechanism.from_xml("overcentre")
-    branches = [equilibria(mechanism, c) for c in DAMPING]
+    mechanism = overcentre()
+    branches = [equilibria(mechanism, c_sp=c) for c in DAMPING]
     light, heavy = histories = [cycle(b) for b in branches]
     _draw(branches, histories, out)
     return [
@@ -36,11 +35,6 @@ def main(out: Path) -> list[Finding]:
         _overshoot(branches[1], heavy),
         _numerics(branches[1], heavy),
     ]
-
-
-def equilibria(mechanism: mc.Mechanism, c_sp: float) -> mc.Branch:
-    """Return the equilibria over the range of the load."""
-    return whole(mc.continue_equilibria(mechanism, "F", BOUNDS, {"F": BOUNDS[1], "c_sp": c_sp}, ds_max=0.02))
 
 
 def load(t: float) -> float:
@@ -90,7 +84,7 @@ def _draw(branches: list[mc.Branch], histories: list[mc.History], out: Path) -> 
         for rows, color, name in ((~rising, COLORS[0], "F falls"), (rising, COLORS[1], "F rises")):
             ax.plot(history["F"][rows], np.degrees(history["theta_1"][rows]), color=color, linewidth=0.8, zorder=1.5,
                     label=name)
-        plot(branch, x="F", y="theta_1", ax=ax, labels=PAPER_NAMES, colors=["black"])
+        plot(branch, x="F", y="theta_1", ax=ax, labels=LABELS, colors=["black"])
         set_panel_title(ax, f"({panel})  c_sp = {branch.fixed['c_sp']:g} N s/m")
         ax.set(xlim=BOUNDS, ylim=(-135, 135), yticks=range(-135, 136, 45))
         ax.legend(loc="upper left", frameon=False, fontsize=8.5)

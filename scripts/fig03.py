@@ -1,7 +1,7 @@
 """Figure 3: spring damping and the equilibria of the overcentre mechanism.
 
 Angle of link 1 against the force F, (a) lightly and (b) heavily damped. Solid: stable; dashed: unstable;
-circles: folds.
+circles: folds. Model overcentre_paper, the set of figures 2 to 5.
 """
 
 from __future__ import annotations
@@ -9,26 +9,22 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from _overcentre import BOUNDS, FOLDS, LABELS, equilibria, overcentre
 
 import mjcont as mc
 from mjcont.drawing.plotting import new_figure, pieces, plot, save_figure, set_panel_title
-from mjcont.paper.reproduce import Finding, run_script, whole
+from mjcont.paper.reproduce import Finding, run_script
 
-BOUNDS = (-50.0, 50.0)
 DAMPING = (0.01, 10.0)
-PAPER_NAMES = {"LP2": "FP$_1$", "LP1": "FP$_2$"}
 
 
 def main(out: Path) -> list[Finding]:
     """Draw the figure into a folder and return its findings."""
-    mechanism = mc.Mechanism.from_xml("overcentre")
-    branches = [
-        whole(mc.continue_equilibria(mechanism, "F", BOUNDS, {"F": BOUNDS[1], "c_sp": c}, ds_max=0.03))
-        for c in DAMPING
-    ]
+    mechanism = overcentre()
+    branches = [equilibria(mechanism, ds_max=0.03, c_sp=c) for c in DAMPING]
     figure, axes = new_figure(1, 2, (7.2, 3.3), sharey=True)
     for ax, panel, branch in zip(axes, "ab", branches, strict=True):
-        plot(branch, x="F", y="theta_1", ax=ax, labels=PAPER_NAMES)
+        plot(branch, x="F", y="theta_1", ax=ax, labels=LABELS)
         set_panel_title(ax, f"({panel})  c_sp = {branch.fixed['c_sp']:g} N s/m")
         ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30))
         ax.label_outer()
@@ -52,12 +48,12 @@ def _structure(branches: list[mc.Branch]) -> Finding:
 
 
 def _folds(branch: mc.Branch) -> str:
-    folds = [(name, branch.point(label)) for name, label in (("FP1", "LP2"), ("FP2", "LP1"))]
+    folds = [(name, branch.point(label)) for label, name in FOLDS.items()]
     return ", ".join(f"{n} at {p['F']:.6f} N, {np.degrees(p['theta_1']):+.6f} deg" for n, p in folds)
 
 
 def _same(light: mc.Branch, heavy: mc.Branch) -> Finding:
-    folds = [abs(light.point(f)[n] / heavy.point(f)[n] - 1) for f in PAPER_NAMES for n in ("F", "theta_1")]
+    folds = [abs(light.point(f)[n] / heavy.point(f)[n] - 1) for f in FOLDS for n in ("F", "theta_1")]
     return Finding(
         "The two diagrams are identical: damping does not change the equilibria.",
         f"F and theta_1 at the folds differ by at most {max(folds):.1g} (relative)",

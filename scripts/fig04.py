@@ -2,7 +2,8 @@
 
 Angle of link 1 (a) at the folds against the joint stiffness k_j, where grey lines mark the stiffness of the panels
 below and dotted lines the angle for rigid joints; upper right, not in the paper, its relative deviation from that
-angle, and 1 %; (b) at equilibrium against the force F. Solid: stable; dashed: unstable; circles: folds.
+angle, and 1 %; (b) at equilibrium against the force F. Solid: stable; dashed: unstable; circles: folds. Model
+overcentre_paper, the set of figures 2 to 5.
 """
 
 from __future__ import annotations
@@ -10,27 +11,24 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from _overcentre import BOUNDS, FOLDS, LABELS, LINE_WIDTH, Rigid, curve, equilibria, farthest, overcentre, to_axes
 
 import mjcont as mc
 from mjcont.drawing.plotting import GREY, new_figure, pieces, plot, save_figure, set_panel_title
-from mjcont.numerics.equations.problem import Array
-from mjcont.paper.reproduce import Finding, distances, run_script, whole
+from mjcont.paper.reproduce import Finding, run_script, whole
 
-BOUNDS = (-50.0, 50.0)
-WINDOW = (100.0, np.pi)  # what the axes of (b) span: N, rad
-LINE_WIDTH = 0.01  # of what the axes span
 STIFFNESS = (10.0, 200.0, 1000.0)
 SPAN = (8.0, 1e6)  # k_j in N/m
-FOLDS = {"LP2": "FP$_1$", "LP1": "FP$_2$"}
-GRAVITY = 9.81  # m/s^2, of the model at load_factor 1
 
 
 def main(out: Path) -> list[Finding]:
     """Draw the figure into a folder and return its findings."""
-    mechanism = mc.Mechanism.from_xml("overcentre")
-    branches = [_branch(mechanism, k) for k in STIFFNESS]
+    mechanism = overcentre()
+    rigid = Rigid.of(mechanism)
+    branches = [equilibria(mechanism, k_j=k) for k in STIFFNESS]
     studies = {
-        (label, q): mc.stiffness_study(mechanism, branches[-1].point(label), "k_j", 0.01, bounds=SPAN, quantity=q)
+        (label, q): mc.stiffness_study(mechanism, branches[-1].point(label), "k_j", 0.01, bounds=SPAN, quantity=q,
+                                       ds_max=0.02)
         for label in FOLDS
         for q in ("F", "theta_1")
     }
@@ -38,27 +36,12 @@ def main(out: Path) -> list[Finding]:
         whole(study.locus)
     _draw(branches, studies, out)
     return [
-        _levels_off(studies, mechanism),
+        _levels_off(studies, rigid),
         _same_structure(branches),
         _softest(*branches[:2]),
         _converging(branches),
-        _identical(*branches[1:]),
+        _identical(*branches[1:], rigid),
     ]
-
-
-def rigid_fold(mechanism: mc.Mechanism, label: str) -> dict[str, float]:
-    """Return F and theta_1 of a fold with rigid joints, for links of equal length: cos^3 theta_1 = l_us / L_1."""
-    p = mechanism.values()
-    x, z = mechanism.measure(mechanism.qpos0[None], p, ("joint_B[0]", "joint_B[2]"))[0]
-    length = float(np.hypot(x, z))
-    angle = float(np.arccos(np.cbrt(p["l_us"] / length))) * (1.0 if label == "LP2" else -1.0)
-    weight = (p["m_1"] + p["m_2"]) * GRAVITY * p["load_factor"]
-    stretch = length * np.cos(angle) - p["l_us"]
-    return {"F": float(weight - 2.0 * p["k_sp"] * stretch * np.tan(angle)), "theta_1": angle}
-
-
-def _branch(mechanism: mc.Mechanism, k_j: float) -> mc.Branch:
-    return whole(mc.continue_equilibria(mechanism, "F", BOUNDS, {"F": BOUNDS[1], "k_j": k_j}, ds_max=0.02))
 
 
 def _draw(branches: list[mc.Branch], studies: dict[tuple[str, str], mc.StiffnessStudy], out: Path) -> None:
@@ -67,8 +50,8 @@ def _draw(branches: list[mc.Branch], studies: dict[tuple[str, str], mc.Stiffness
         study = studies[label, "theta_1"]
         plot(study.locus, x="k_j", y="theta_1", ax=ax, colors=["black"], labels=False)
         ax.axhline(np.degrees(study.limit), color=GREY, linestyle=":", linewidth=1.0)
-        set_panel_title(ax, f"({panel})  {FOLDS[label]}")
-        axes[0, 2].plot(study.locus["k_j"], study.deviation, label=FOLDS[label], color="black",
+        set_panel_title(ax, f"({panel})  {LABELS[label]}")
+        axes[0, 2].plot(study.locus["k_j"], study.deviation, label=LABELS[label], color="black",
                         linestyle="-" if panel == "a1" else "-.")
     axes[0, 2].axhline(study.tol, color=GREY, linestyle=":", linewidth=1.0)
     axes[0, 2].set(yscale="log", ylim=(1e-4, 1.5), xlabel="k_j [N/m]", ylabel="deviation of theta_1")
@@ -79,18 +62,17 @@ def _draw(branches: list[mc.Branch], studies: dict[tuple[str, str], mc.Stiffness
             ax.axvline(k, color="0.75", linewidth=1.2, zorder=0.5)
         ax.set(xscale="log", xlim=(SPAN[0], 1e5))
     for i, (ax, branch) in enumerate(zip(axes[1], branches, strict=True), 1):
-        plot(branch, x="F", y="theta_1", ax=ax, labels=FOLDS)
+        plot(branch, x="F", y="theta_1", ax=ax, labels=LABELS)
         set_panel_title(ax, f"(b{i})  k_j = {branch.fixed['k_j']:g} N/m")
         ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30))
     save_figure(figure, out / "fig04.png")
 
 
-def _levels_off(studies: dict[tuple[str, str], mc.StiffnessStudy], mechanism: mc.Mechanism) -> Finding:
+def _levels_off(studies: dict[tuple[str, str], mc.StiffnessStudy], rigid: Rigid) -> Finding:
     shown, off = [], []
-    for label, name in (("LP2", "FP1"), ("LP1", "FP2")):
-        rigid = rigid_fold(mechanism, label)
-        angle, force = studies[label, "theta_1"], studies[label, "F"]
-        off += [abs(angle.limit / rigid["theta_1"] - 1), abs(force.limit / rigid["F"] - 1)]
+    for label, name in FOLDS.items():
+        fold, angle, force = rigid.fold(label), studies[label, "theta_1"], studies[label, "F"]
+        off += [abs(angle.limit / fold["theta_1"] - 1), abs(force.limit / fold["F"] - 1)]
         shown.append(
             f"{name} tends to {np.degrees(angle.limit):.5f} deg and {force.limit:.5f} N, within 1 % of that from "
             f"k_j = {angle.converged_from or np.nan:.0f} N/m (angle) and {force.converged_from or np.nan:.0f} N/m "
@@ -120,33 +102,35 @@ def _same_structure(branches: list[mc.Branch]) -> Finding:
     )
 
 
-def _curve(branch: mc.Branch) -> Array:
-    """Return the curve in units of the axes' spans, (N, 2)."""
-    return np.column_stack([branch["F"], branch["theta_1"]]) / WINDOW
-
-
 def _bend(branch: mc.Branch) -> float:
     """Return how far the unstable piece strays from its chord, relative to the chord's length in the diagram."""
-    z = _curve(branch)[branch.point("LP1").index : branch.point("LP2").index + 1]
+    z = to_axes(curve(branch))[branch.point("LP1").index : branch.point("LP2").index + 1]
     chord = z[-1] - z[0]
     aside = (z - z[0]) @ np.array([-chord[1], chord[0]]) / (chord @ chord)
     return float(np.abs(aside).max())
 
 
+def _shape(branch: mc.Branch) -> tuple[float, float, float, float]:
+    """Return spans in deg, of the lower branch, of its part below F = 0 and of the upper branch, and the bend in %."""
+    theta = np.degrees(branch["theta_1"])
+    lower = slice(0, branch.point("LP1").index + 1)
+    unloaded = float(np.interp(0.0, branch["F"][lower], theta[lower]))
+    rise = theta[-1] - theta[branch.point("LP2").index]
+    return theta[lower][-1] - theta[0], unloaded - theta[0], rise, 100 * _bend(branch)
+
+
 def _softest(soft: mc.Branch, stiff: mc.Branch) -> Finding:
-    flat, bend, rise = [], [], []
-    for b in (soft, stiff):
-        theta = np.degrees(b["theta_1"])
-        flat.append(theta[b.point("LP1").index] - theta[0])
-        rise.append(theta[-1] - theta[b.point("LP2").index])
-        bend.append(100 * _bend(b))
+    away = farthest(curve(soft), curve(stiff))[0]
+    lower, unloaded, rise, bend = zip(_shape(soft), _shape(stiff), strict=True)
+    flatter = lower[0] < lower[1] and unloaded[0] < unloaded[1]
     return Finding(
-        "From 10 to 200 N/m the change is large: softer joints make the lower branch flatter and the unstable piece "
-        "straighter, and stiffer ones turn the upper branch down about FP1.",
-        f"k_j = {soft.fixed['k_j']:g} and {stiff.fixed['k_j']:g} N/m: the lower branch spans {flat[0]:.1f} and "
-        f"{flat[1]:.1f} deg, the unstable piece strays {bend[0]:.2f} and {bend[1]:.2f} % from its chord, the upper "
+        "From 10 to 200 N/m the change is large, several times the width of a line: softer joints make the lower "
+        "branch flatter and the unstable piece straighter, and stiffer ones turn the upper branch down about FP1.",
+        f"k_j = {soft.fixed['k_j']:g} and {stiff.fixed['k_j']:g} N/m: up to {100 * away:.1f} % of the axes apart; the "
+        f"lower branch spans {lower[0]:.1f} and {lower[1]:.1f} deg, of which {unloaded[0]:.1f} and {unloaded[1]:.1f} "
+        f"deg below F = 0, the unstable piece strays {bend[0]:.2f} and {bend[1]:.2f} % from its chord, the upper "
         f"branch rises by {rise[0]:.1f} and {rise[1]:.1f} deg from FP1 to {BOUNDS[1]:g} N",
-        flat[0] < flat[1] and bend[0] < bend[1] and rise[0] > rise[1],
+        away > 3 * LINE_WIDTH and flatter and bend[0] < bend[1] and rise[0] > rise[1],
     )
 
 
@@ -155,7 +139,7 @@ def _converging(branches: list[mc.Branch]) -> Finding:
     shifts = [
         [abs(b.point(label)[q] - a.point(label)[q]) for label in FOLDS for q in ("F", "theta_1")] for a, b in pairs
     ]
-    away = [float(distances(_curve(a), _curve(b)).max()) for a, b in pairs]
+    away = [farthest(curve(a), curve(b))[0] for a, b in pairs]
     shown = [
         f"{a.fixed['k_j']:g} to {b.fixed['k_j']:g} N/m: folds by {s[0]:.2f} and {s[2]:.2f} N, {np.degrees(s[1]):.2f} "
         f"and {np.degrees(s[3]):.2f} deg, the curve by at most {100 * d:.1f} % of the axes"
@@ -168,15 +152,18 @@ def _converging(branches: list[mc.Branch]) -> Finding:
     )
 
 
-def _identical(middle: mc.Branch, stiff: mc.Branch) -> Finding:
-    away = distances(_curve(middle), _curve(stiff))
-    worst, apart = int(away.argmax()), away >= LINE_WIDTH
-    where = f", beyond F = {middle['F'][apart].min():.0f} N on the upper branch" if apart.any() else ""
+def _identical(middle: mc.Branch, stiff: mc.Branch, rigid: Rigid) -> Finding:
+    found = {f"{stiff.fixed['k_j']:g} N/m": curve(stiff), "rigid joints": rigid.curve()}
+    worst = {name: farthest(curve(middle), other) for name, other in found.items()}
+    shown = [
+        f"{100 * d:.2f} % of the axes from {name} (F = {f:.1f} N, theta_1 = {np.degrees(t):.1f} deg)"
+        for name, (d, f, t) in worst.items()
+    ]
     return Finding(
-        "The curves at 200 and 1000 N/m cannot be told apart: nowhere further than a line is wide, 1 % of the axes.",
-        f"at most {100 * away[worst]:.2f} % of the axes, at F = {middle['F'][worst]:.1f} N, theta_1 = "
-        f"{np.degrees(middle['theta_1'][worst]):.1f} deg; over 1 % for {100 * apart.mean():.0f} % of the curve{where}",
-        not apart.any(),
+        "The curves at 200 and 1000 N/m or beyond cannot be told apart: nowhere further than a line is wide, 1 % of "
+        "the axes.",
+        f"that at {middle.fixed['k_j']:g} N/m lies at most {' and '.join(shown)}",
+        max(d for d, _, _ in worst.values()) < LINE_WIDTH,
     )
 
 

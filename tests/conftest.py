@@ -8,6 +8,9 @@ import pytest
 from problems.reference import BOUNDS, START
 
 import mjcont as mc
+from mjcont.numerics.walk import guard
+
+guard.raise_unexpected(True)  # what a user meets as a status is a failure here
 
 
 @pytest.fixture
@@ -18,11 +21,11 @@ def overcentre():
 
 @pytest.fixture(scope="session")
 def overcentre_branch():
-    """Return a function: the overcentre's branch in F for some parameter values (computed once each)."""
+    """Return a function: an overcentre's branch in F for some parameter values (computed once each)."""
 
     @cache
-    def branch(**values):
-        mechanism = mc.Mechanism.from_xml("overcentre")
+    def branch(model="overcentre", **values):
+        mechanism = mc.Mechanism.from_xml(model)
         return mc.continue_equilibria(mechanism, "F", bounds=BOUNDS, start={"F": START, **values})
 
     return branch

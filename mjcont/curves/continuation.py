@@ -18,10 +18,22 @@ from mjcont.numerics.equations.system import Free, System
 from mjcont.numerics.points.events import Located, ScalarZero
 from mjcont.numerics.points.on_equilibria import square_system
 from mjcont.numerics.step.arclength import CurvePoint, first_point
+from mjcont.numerics.walk.guard import guarded
+from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.points import Point, show
-from mjcont.results.quantities import check_bounds
+from mjcont.results.quantities import check_bounds, finite
+
+
+def check_limits(name: str, ends: Any) -> None:
+    """Raise a BoundsError unless the limits of a column are two numbers low <= high; either may be infinite."""
+    try:
+        low, high = (float(e) for e in ends)
+    except (TypeError, ValueError) as error:
+        raise BoundsError(f"limits of {name} must be two numbers (low, high), got {ends!r}") from error
+    if not low <= high:
+        raise BoundsError(f"limits of {name} must have low <= high, got ({low:g}, {high:g})")
 
 
 def start_from(
@@ -36,6 +48,7 @@ def start_from(
     return problem.start_state(keyframe, state), problem.values(start)
 
 
+@np.errstate(all="ignore")
 def find_equilibrium(
     problem: Any, start: Mapping[str, float] | Point | None = None, *, keyframe: str | None = None, state: Any = None
 ) -> Point:
@@ -62,6 +75,7 @@ def _start_name(start: Any, keyframe: str | None, state: Any) -> str:
     return "the given point" if isinstance(start, Point) else "the model's initial pose"
 
 
+@np.errstate(all="ignore")
 def continue_equilibria(
     problem: Any,
     parameter: str,
@@ -149,7 +163,9 @@ def iterate_equilibria(
     if isinstance(first, str):
         raise StartError(f"the curve could not be entered: {first}")
     yield make_point(system.problem, first.x, system.values(first.y))
-    for item in walker.walk(first):
+    for item in guarded(walker.walk(first)):
+        if isinstance(item, End) and item.status is Status.FAILED:
+            raise MjcontError(item.message)
         if isinstance(item, CurvePoint):
             yield make_point(system.problem, item.x, system.values(item.y))
         elif isinstance(item, Located):
@@ -192,6 +208,10 @@ def _prepare(
     for name in (*(zeros or {}), *(limits or {})):
         if name not in problem.parameters:
             problem.observable(name)
+    for name, value in (zeros or {}).items():
+        finite(f"zeros: the value of {name}", value)
+    for name, ends in (limits or {}).items():
+        check_limits(name, ends)
     problem, notes = hold_rigid_modes(problem, x, values)
     refuse_pushing(problem, parameter, x, values)
     if notes:
@@ -258,6 +278,7 @@ def check_direction(direction: int | None) -> tuple[float, ...]:
     return (-1.0, 1.0) if direction is None else (float(direction),)
 
 
+@np.errstate(all="ignore")
 def points_at(branch: Branch, name: str, value: float) -> list[Point]:
     """Return the points of a branch of equilibria at which a column has a value, corrected to it."""
     if branch.problem is None:

@@ -10,7 +10,7 @@ import numpy as np
 from mjcont.curves.collect import Progress, build_branch, completed, ends_of, ordered_rows, reporter
 from mjcont.curves.continuation import continue_equilibria, find_equilibrium
 from mjcont.curves.walkers import equilibrium_walker
-from mjcont.errors import BoundsError, MjcontError
+from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.numerics.equations.newton import correct, solve
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import Settings, make_settings
@@ -27,6 +27,7 @@ _OFFSET = 1e-2
 _SAME = 1e-5
 
 
+@np.errstate(all="ignore")
 def switch_branches(
     point: SpecialPoint,
     bounds: tuple[float, float] | None = None,
@@ -97,7 +98,7 @@ def _through(
         if isinstance(first, str):
             halves.append(Trace([], [], End(Status.NO_START, f"the branch could not be entered: {first}")))
             continue
-        halves.append(trace(walker, first, reporter(system, progress)))
+        halves.append(trace(walker, first, reporter(system, progress), [e for h in halves for e in h.special]))
     if not any(h.points for h in halves):
         return None
     local = system.local(x, y)
@@ -134,6 +135,7 @@ def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool
     return True
 
 
+@np.errstate(all="ignore")
 def bifurcation_diagram(
     problem: Any,
     parameter: str,
@@ -150,12 +152,16 @@ def bifurcation_diagram(
     Parameters
     ----------
     starts : a start (dict or point), or several; default the model's own values and pose.
-    keyframes : further starts by keyframe, all at the first start's parameters.
+    keyframes : further starts by keyframe, all at the first start's parameters, or the model's without one.
     max_branches : limit on the number of branches.
     """
     first: Sequence[Any] = [starts] if starts is None or isinstance(starts, Mapping | Point) else list(starts)
+    if not first and not keyframes:
+        raise ParameterError("starts is empty: give a start, or leave it out for the model's own values and pose")
+    if max_branches < 1:
+        raise ParameterError(f"max_branches must be at least 1, got {max_branches}")
     tries: list[tuple[Any, str | None]] = [(s, None) for s in first] if not keyframes or starts is not None else []
-    tries += [(first[0], k) for k in keyframes]
+    tries += [(first[0] if first else None, k) for k in keyframes]
     branches: list[Branch] = []
     notes: list[str] = []
     for start, keyframe in tries:

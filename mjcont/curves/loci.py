@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from mjcont.curves.collect import Progress, collect, run_directions
 from mjcont.curves.continuation import check_direction, hold_rigid_modes
 from mjcont.curves.walkers import monitor_of
@@ -25,6 +27,7 @@ _NAMES = {"LP": "fold", "HB": "Hopf", "BP": "branch-point", "CP": "cusp", "BT": 
 CODIMENSION = {"LP": 1, "HB": 1, "BP": 1, "CP": 2, "BT": 2, "ZH": 2}
 
 
+@np.errstate(all="ignore")
 def continue_special(
     point: SpecialPoint,
     parameter: str,

@@ -8,7 +8,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from mjcont.errors import ParameterError
+from mjcont.results.quantities import finite_array
 
 _JOINT = mujoco.mjtJoint
 
@@ -46,10 +46,7 @@ def keyframes(model: mujoco.MjModel) -> dict[str, np.ndarray]:
 
 def checked_state(model: mujoco.MjModel, state: Any) -> np.ndarray:
     """Return a state that a user gives as an array, (nq,)."""
-    x = np.array(state, dtype=float)
-    if x.shape != (model.nq,):
-        raise ParameterError(f"state must have shape ({model.nq},) for model '{model_name(model)}', got {x.shape}")
-    return x
+    return finite_array(f"model '{model_name(model)}': state", state, (model.nq,))
 
 
 def state_labels(model: mujoco.MjModel) -> list[tuple[str, str]]:

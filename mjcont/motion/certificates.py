@@ -26,6 +26,7 @@ from mjcont.mechanism.batches import load_side
 from mjcont.mechanism.inputs import DataInputs
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.motion.stepping import INTEGRATORS, quiet
+from mjcont.numerics.equations.algebra import singular
 from mjcont.numerics.equations.problem import Array, Pencil
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
 from mjcont.results.branch import Branch
@@ -212,8 +213,8 @@ def _vectors(pencil: Pencil, s: complex) -> tuple[Array, Array]:
     # rows and columns are scaled so that light and stiff coordinates weigh alike
     scale = 1.0 / np.sqrt(np.diag(mass))
     matrix = (s**2 * mass + s * damping + pencil.stiffness) * np.outer(scale, scale)
-    u, sigma, vh = np.linalg.svd(matrix)
-    kernel = np.flatnonzero(sigma <= max(1e-7 * sigma[0], 10.0 * sigma[-1]))
+    u, sigma, vh = singular(matrix)
+    kernel = np.flatnonzero(~(sigma > max(1e-7 * sigma[0], 10.0 * sigma[-1])))
     p, q = scale[:, None] * u[:, kernel], scale[:, None] * vh[kernel].conj().T
     if s.imag == 0.0:
         p, q = p.real, q.real

@@ -20,6 +20,7 @@ from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.mechanism.energy import potential_energy, without_potential
 from mjcont.motion.escape import Landing, escape
 from mjcont.motion.legs import FRACTION, Leg, unwrapped
+from mjcont.numerics.equations.algebra import eigenvectors, singular, solve
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Free, Local, System
@@ -335,9 +336,9 @@ def _mode(problem: Any, local: Local, kind: str) -> Array:
     if kind == "HB" and pencil.mass is not None and pencil.damping is not None:
         ev = quadratic_eigenvalues(pencil.mass, pencil.damping, -jac)
         s = ev[np.argmax(np.where(ev.imag > 0, ev.real, -np.inf))]
-        _, _, vh = np.linalg.svd(s**2 * pencil.mass + s * pencil.damping - jac)
+        _, _, vh = singular(s**2 * pencil.mass + s * pencil.damping - jac)
         return vh[-1].conj().real
-    values, vectors = np.linalg.eig(jac if pencil.mass is None else np.linalg.solve(pencil.mass, jac))
+    values, vectors = eigenvectors(jac if pencil.mass is None else solve(pencil.mass, jac))
     return vectors[:, np.argmax(values.real)].real
 
 

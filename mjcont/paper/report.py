@@ -11,8 +11,9 @@ INTRODUCTION = (
     "The figures are those of Knowles, Krauskopf, Lowenberg, Neild and Thota, A Bifurcation Study of a Dynamic Model "
     "of a Landing Gear Mechanism. The text prints no parameters: ours were chosen so that its findings and ratios come "
     "out (docs/paper.md), so forces and angles are ours. Each claim of the text is checked against numbers computed "
-    "here. Where one does not hold, the reason is given with it: the paper judges curves by eye where we measure a "
-    "distance, and nothing but its spring and the retraction force holds our gear below overcentre, so that it has one "
+    "here; where the text judges curves by eye, they are alike if they lie nowhere further apart than a line is wide. "
+    "Where a claim does not hold, the reason is given with it: nothing but its "
+    "spring and the retraction force holds our gear below overcentre, so that it has one "
     "fold near uplock where the paper has three."
 )
 

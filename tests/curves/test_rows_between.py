@@ -13,9 +13,9 @@ import mjcont as mc
 from mjcont.curves.collect import ordered_rows, run_directions
 from mjcont.curves.rows import curve_rows
 from mjcont.curves.walkers import equilibrium_walker
+from mjcont.numerics.equations.algebra import inverses
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Free, System
-from mjcont.numerics.walk.between import _inverses
 
 # a rod on a ball joint, turned up by a force at its tip: positions carry a quaternion
 BALL = (
@@ -114,7 +114,7 @@ def test_a_chord_that_is_too_small_is_refused(chord):
 
 def test_a_singular_matrix_costs_its_own_row_only():
     matrices = np.array([np.eye(3), np.zeros((3, 3)), 2.0 * np.eye(3)])
-    found = _inverses(matrices)
+    found = inverses(matrices)
     assert np.isnan(found[1]).all()
     assert found[0] == pytest.approx(np.eye(3))
     assert found[2] == pytest.approx(0.5 * np.eye(3))

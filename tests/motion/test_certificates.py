@@ -12,6 +12,7 @@ import mjcont as mc
 # model: parameter, bounds, start values, keyframe
 CURVES = {
     "overcentre": ("F", (-50, 60), {"F": 50.0}, None),
+    "overcentre_paper": ("F", (-50, 60), {"F": 50.0}, None),
     "overcentre_tree": ("F", (-50, 60), {"F": 50.0}, None),
     "nose_gear": ("F_ret", (3e5, 8e5), {"F_ret": 4e5}, "uplock_above"),
     "nose_gear_full": ("F_ret", (0, 60), {"F_ret": 20.0}, "uplock_above"),

@@ -20,7 +20,7 @@ pytestmark = pytest.mark.long
 @pytest.fixture(scope="module")
 def heavy():
     """The equilibria of the heavily damped mechanism."""
-    return fig02.equilibria(mc.Mechanism.from_xml("overcentre"), 10.0)
+    return fig02.equilibria(fig02.overcentre(), c_sp=10.0)
 
 
 def rate_of_figure_2(fold):

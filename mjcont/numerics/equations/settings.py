@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
+from numbers import Real
 from typing import Any
 
 from mjcont.errors import ParameterError, unknown_name
 
 SMALLEST_CHORD = 1e-9
+
+
+def check_numbers(options: Mapping[str, Any]) -> None:
+    """Raise a ParameterError unless all values are numbers."""
+    for name, value in options.items():
+        if isinstance(value, bool) or not isinstance(value, Real) or math.isnan(value):
+            raise ParameterError(f"{name} must be a number, got {value!r}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +57,7 @@ class Settings:
     chord: float = 3e-6
 
     def __post_init__(self) -> None:
+        check_numbers(asdict(self))
         if not 0 < self.ds_min <= self.ds <= self.ds_max:
             raise ParameterError(
                 f"steps must satisfy 0 < ds_min <= ds <= ds_max, got {self.ds_min:g}, {self.ds:g}, {self.ds_max:g}"
@@ -57,6 +66,10 @@ class Settings:
             raise ParameterError("angles must satisfy 0 < angle < angle_max < pi/2 (radians)")
         if self.max_points < 2 or self.max_corrections < 2:
             raise ParameterError("max_points and max_corrections must be at least 2")
+        if not (self.tol > 0 and self.max_size > 0):
+            raise ParameterError(f"tol and max_size must be positive, got {self.tol:g}, {self.max_size:g}")
+        if math.isinf(self.ds_max) or math.isinf(self.tol):
+            raise ParameterError("ds_max and tol must be finite")
         if not self.chord >= SMALLEST_CHORD:
             raise ParameterError(f"chord must be {SMALLEST_CHORD:g} or more (inf adds no rows), got {self.chord:g}")
 
@@ -66,14 +79,15 @@ def make_settings(options: Mapping[str, Any]) -> Settings:
 
     Raises
     ------
-    NameLookupError
-        If an option does not exist; the message lists those that do.
+    NameLookupError, ParameterError
+        If an option does not exist (the message lists those that do) or does not fit.
     """
     valid = [f.name for f in fields(Settings)]
     for name in options:
         if name not in valid:
             raise unknown_name("option", name, valid)
     given = dict(options)
+    check_numbers(given)
     if "ds" not in given and "ds_max" in given:
         given["ds"] = min(Settings().ds, given["ds_max"])
     if "ds_min" not in given and "ds" in given:
