@@ -45,10 +45,10 @@ if TYPE_CHECKING:
     from mjcont.mechanism.mechanism import Mechanism
     from mjcont.models.bushes import add_bushes, bushed_xml, set_constraint_stiffness
     from mjcont.models.equalities import ConstraintStiffness, constraint_stiffness
+    from mjcont.motion.barriers import barrier_along, barrier_map, energy_barrier
     from mjcont.motion.certificates import verify_stability
     from mjcont.motion.histories import simulate, simulate_many
     from mjcont.motion.loadpaths import load_path
-    from mjcont.motion.margins import barrier_along, barrier_map, energy_barrier
     from mjcont.numerics.equations.settings import Settings
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
     from mjcont.results.branch import Branch, Diagram
@@ -84,10 +84,10 @@ _HOMES = {
     "mjcont.mechanism.mechanism": ("Mechanism",),
     "mjcont.models.bushes": ("add_bushes", "bushed_xml", "set_constraint_stiffness"),
     "mjcont.models.equalities": ("ConstraintStiffness", "constraint_stiffness"),
+    "mjcont.motion.barriers": ("barrier_along", "barrier_map", "energy_barrier"),
     "mjcont.motion.certificates": ("verify_stability",),
     "mjcont.motion.histories": ("simulate", "simulate_many"),
     "mjcont.motion.loadpaths": ("load_path",),
-    "mjcont.motion.margins": ("barrier_along", "barrier_map", "energy_barrier"),
     "mjcont.numerics.equations.settings": ("Settings",),
     "mjcont.results.barriers": ("Barrier", "BarrierCurve", "BarrierMap"),
     "mjcont.results.branch": ("Branch", "Diagram"),

@@ -1,1 +1,1 @@
-"""The command line and what it prints."""
+"""The command line: `arguments` says what each command takes, `cli` does it, `progress` prints while it goes."""

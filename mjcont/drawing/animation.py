@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mjcont.drawing import plotting
+from mjcont.drawing.axes import axis_label
 from mjcont.drawing.frames import Frame, Result, Track, default_columns, frames_of, track_of
 from mjcont.drawing.movies import check_movie, write_movie
 from mjcont.drawing.offscreen import Offscreen
-from mjcont.drawing.pathplots import axis_label
 from mjcont.drawing.picture import Picture, pictured
 from mjcont.drawing.shapes import Scene, plane_axes
 from mjcont.drawing.sketch import padded, render

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont.drawing.pathplots import axis_label, draw_path
+from mjcont.drawing.axes import axis_label
+from mjcont.drawing.loadpaths import draw_path
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.branch import Branch

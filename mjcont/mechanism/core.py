@@ -18,6 +18,14 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.results.text import ParameterTable
 
 _DISABLE = mujoco.mjtDisableBit
+# what numerics and verbs ask of a Mechanism, and no user needs
+ENGINE = frozenset(
+    """
+    active admissible constrained difference_each failure first_order held holding linearize_along measure_along
+    nonsmooth parameter_stencil passive pencils periods residuals residuals_along retract_each rigid_directions
+    rigid_modes second_order side_by_side writer
+    """.split()
+)
 
 
 class Core:
@@ -56,6 +64,11 @@ class Core:
     def writer_of(self, model: mujoco.MjModel) -> FieldWriter:
         """Return what writes parameter values into a copy of the model."""
         return FieldWriter(model, self.parameters, self.geometry)
+
+    def as_loaded(self) -> mujoco.MjModel:
+        """Return the model on which residuals are evaluated, every parameter at the model's own value."""
+        self.writer.write(self.parameters, {name: p.value for name, p in self.parameters.items()})
+        return self.model
 
     def relayout(self) -> None:
         """Take models of the layout that compiled ones have: a parameter of the spec was declared."""

@@ -20,7 +20,7 @@ import numpy as np
 
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.mechanism import rigid
-from mjcont.mechanism.core import Core, copy_model, evaluation_copy, is_constrained, owned_copy, simulation_copy
+from mjcont.mechanism.core import ENGINE, Core, copy_model, evaluation_copy, is_constrained, owned_copy, simulation_copy
 from mjcont.mechanism.declarations import Declaration
 from mjcont.mechanism.geometry import Geometry, refuse_overlap
 from mjcont.mechanism.observables import Observed, model_observables
@@ -53,14 +53,12 @@ class Mechanism(Observed):
     declared : dict
         Parameters declared in Python or by path, as results store them.
     keyframes : dict of str to (nq,) array
-    notes : tuple of str
-        What is treated in a way that its user should know of: friction, activations.
     state_scale : (nv,) array
         1 rad for rotations, the model's size in metres for translations.
     mjcf : str or None
         The model's text; None for a Mechanism made from a compiled model.
     notes : tuple of str
-        What the user should know about the model as loaded, such as files that are not there.
+        What its user should know of: files that are not there, friction that is left out, activations.
     """
 
     second_order = True
@@ -150,7 +148,7 @@ class Mechanism(Observed):
         if name in self.parameters:
             raise ParameterError(f"parameter '{name}' is declared twice")
         given = Declaration(name, unit, bounds, tuple(paths), function, value)
-        parameter = declared_parameter(self._model_as_loaded(), self._core.geometry, given)
+        parameter = declared_parameter(self._core.as_loaded(), self._core.geometry, given)
         self.parameters[name] = parameter
         self.declared[name] = given.record(parameter)
         if parameter.kind == "spec":
@@ -183,10 +181,6 @@ class Mechanism(Observed):
         if any(self.parameters[name].kind == "spec" for name in given):
             self._core.geometry.model(self.parameters, merged)
         return merged
-
-    def _model_as_loaded(self) -> mujoco.MjModel:
-        self._core.writer.write(self.parameters, self.values())
-        return self._core.model
 
     # -- residual and derivatives ----------------------------------------------------------------------------
 
@@ -388,6 +382,10 @@ class Mechanism(Observed):
     def bushes(self) -> list[str]:
         """Names of the bush actuators."""
         return bush_names(self._core.model)
+
+    def __dir__(self) -> list[str]:
+        """List what a user may use; the rest of the public methods is what the numerics ask for."""
+        return sorted(set(super().__dir__()) - ENGINE)
 
     def __str__(self) -> str:
         """List what can be continued, what can be read, and where to start."""

@@ -1,1 +1,4 @@
-"""What happens in time: simulate, certificates, escapes, load paths, margins."""
+"""What happens in time: histories, certificates of stability, escapes, load paths, energy margins.
+
+Steps are MuJoCo's own, or those of motion without inertia, C x' = f.
+"""

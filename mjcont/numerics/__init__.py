@@ -1,1 +1,5 @@
-"""Continuation, event location and normal forms for problems f(x, p) = 0; knows nothing of MuJoCo, files or plots."""
+"""Continuation of f(x, p) = 0: knows nothing of MuJoCo, files or plots.
+
+Rooms from the ground up: `equations`, `step`, `spectra`, `points`, `walk`; `search` beside them. Each imports only from
+those before it.
+"""

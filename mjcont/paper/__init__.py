@@ -1,6 +1,1 @@
-"""The paper's figures, findings and report."""
-
-
-
-
-
+"""The paper's figures, their findings, and the report."""

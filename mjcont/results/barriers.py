@@ -60,7 +60,7 @@ class BarrierCurve:
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the barrier against the parameter and return the axes."""
-        from mjcont.drawing.pathplots import draw_barriers
+        from mjcont.drawing.barriers import draw_barriers
 
         return draw_barriers(self, ax)
 
@@ -91,7 +91,7 @@ class BarrierMap:
 
     def plot(self, ax: Any = None, *, levels: Any = 10) -> Any:
         """Draw contours of the barrier and return the axes."""
-        from mjcont.drawing.pathplots import draw_map
+        from mjcont.drawing.barriers import draw_map
 
         return draw_map(self, ax, levels)
 

@@ -66,7 +66,7 @@ class SpecialMap:
         ax : matplotlib Axes, optional
             A three-dimensional one for a surface.
         """
-        from mjcont.drawing.mapplots import draw_line, draw_map
+        from mjcont.drawing.maps import draw_line, draw_map
 
         name = quantity or next(iter(self.point.free))
         if kind not in _KINDS:

@@ -91,7 +91,7 @@ def draw_history(history: History, columns: Sequence[str], path: Path) -> Path:
     """Draw columns of a history against time, one below the other."""
     import numpy as np
 
-    from mjcont.drawing.mapplots import axis_label, scaled
+    from mjcont.drawing.axes import axis_label, scaled
     from mjcont.drawing.plotting import COLORS, new_figure, save_figure
 
     figure, axes = new_figure(len(columns), 1, (5.2, 0.9 + 1.7 * len(columns)), sharex=True, squeeze=False)

@@ -218,7 +218,7 @@ def _certificate(plan: Task, at: Running) -> Outcome:
 
 
 def _barrier(plan: Task, at: Running) -> Outcome:
-    from mjcont.motion.margins import barrier_along
+    from mjcont.motion.barriers import barrier_along
     from mjcont.studies.outputs import barrier_csv
 
     g = plan.given

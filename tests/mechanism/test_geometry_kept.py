@@ -8,6 +8,7 @@ import pytest
 from problems.rods import (
     DAMPING,
     DECLARED,
+    GRAVITY,
     LENGTH,
     REST,
     ROD,
@@ -111,6 +112,16 @@ def test_the_table_of_parameters_says_what_a_change_costs():
     line = next(line for line in str(mechanism.parameters).splitlines() if line.split()[0] == "length")
     assert line.split() == ["length", "0.3", "m", "0.1", "0.6", "recompile", *DECLARED.split(" : ")[1][:-3].split()]
     assert str(mechanism.parameters) in str(mechanism)
+
+
+def test_a_copy_with_held_modes_follows_a_parameter_that_is_declared_later():
+    mechanism = mc.Mechanism.from_xml("""
+    <mujoco><worldbody><body><joint type="slide" axis="0 0 1"/><geom name="ball" size="0.1" density="1000"/></body>
+    </worldbody></mujoco>""")
+    copy = mechanism.holding(())
+    mechanism.declare("radius", "spec:geom:ball.size[0]", bounds=(0.05, 0.3))
+    weight = 1000.0 * 4.0 / 3.0 * math.pi * 0.2**3 * GRAVITY
+    assert copy.residual(np.zeros(1), copy.values({"radius": 0.2})) == pytest.approx([-weight])
 
 
 # -- wrong input ---------------------------------------------------------------------------------------------

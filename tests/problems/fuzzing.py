@@ -115,10 +115,7 @@ def part(rng, i, kind):
     axis = ["1 0 0", "0 1 0", "0 0 1"][int(rng.integers(3))]
     stop = 'range="-30 40"' if rng.random() < 0.2 and kind in ("hinge", "slide") else ""
     attributes = f'type="{kind}" axis="{axis}" stiffness="{spring:g}" damping="{damping:g}" {stop}'
-    if kind == "ball":
-        attributes = f'type="ball" stiffness="{spring:g}"'
-    elif kind == "free":
-        attributes = 'type="free"'
+    attributes = {"free": 'type="free"', "ball": f'type="ball" stiffness="{spring:g}"'}.get(kind, attributes)
     mass = 10.0 ** rng.integers(-6, 4)
     end = f"{rng.normal():.3g} 0 {0.1 + abs(rng.normal()):.3g}"
     geom = f'<geom type="capsule" fromto="0 0 0 {end}" size=".03" mass="{mass:g}"/>'
@@ -135,8 +132,8 @@ def options(rng):
     if rng.random() < 0.3:
         found["ds_max"] = abs(number(rng, 0.1))
     if rng.random() < 0.1:
-        option = rng.choice(["ds", "ds_min", "tol", "angle", "chord", "max_size", "max_corrections"])
-        found[str(option)] = number(rng, 0.3)
+        names = ["ds", "ds_min", "tol", "angle", "chord", "max_size", "max_corrections"]
+        found[str(rng.choice(names))] = number(rng, 0.3)
     return found
 
 

@@ -1,1 +1,1 @@
-"""More solutions: many starts, deflation, creep."""
+"""More solutions than one: many starts, deflation, motion without inertia, minimisation over a box."""

@@ -1,1 +1,1 @@
-"""The one driver loop, long steps, rows between."""
+"""The one driver loop along a curve; long steps, the points inside them, the rows between."""

@@ -1,4 +1,4 @@
-"""Load paths with arrows, energy barriers along a parameter, and maps of them, in matplotlib."""
+"""Load paths with arrows over the diagram."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from mjcont.numerics.equations.problem import Array
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from mjcont.results.barriers import BarrierCurve, BarrierMap
     from mjcont.results.loadpaths import LoadPath
 
 _SHORTEST = 0.04
@@ -52,41 +51,3 @@ def _column(path: Any, values: Array, name: str, degrees: bool) -> Array:
     return np.degrees(values) if degrees and path.unit(name) == "rad" else values
 
 
-def axis_label(name: str, unit: str, degrees: bool = True) -> str:
-    """Return an axis label with its unit."""
-    unit = "deg" if degrees and unit == "rad" else unit.replace("*", " ")
-    return f"{name} [{unit}]" if unit not in ("", "1") else name
-
-
-def draw_barriers(curve: BarrierCurve, ax: Axes | None = None) -> Axes:
-    """Draw energy barriers along a parameter, each stable piece of the branch a line."""
-    from mjcont.drawing.plotting import COLORS, new_figure
-
-    if ax is None:
-        _, ax = new_figure()
-    values = np.degrees(curve.values) if curve.unit == "rad" else curve.values
-    energy = np.where(np.isfinite(curve.energy), curve.energy, np.nan)
-    apart = np.flatnonzero(np.diff(curve.rows) > 1) + 1
-    for i, run in enumerate(np.split(np.arange(len(values)), apart)):
-        ax.plot(values[run], energy[run], color=COLORS[i % len(COLORS)], linewidth=1.8)
-    ax.set(xlabel=axis_label(curve.name, curve.unit), ylabel="energy barrier [J]")
-    ax.set_ylim(bottom=0.0)
-    return ax
-
-
-def draw_map(barriers: BarrierMap, ax: Axes | None = None, levels: Any = 10) -> Axes:
-    """Draw contours of energy barriers over two parameters; blank where there is no rest or no pass is known."""
-    from mjcont.drawing.plotting import new_figure
-
-    if ax is None:
-        _, ax = new_figure()
-    scales = [np.degrees(1.0) if u == "rad" else 1.0 for u in barriers.units]
-    energy = np.ma.masked_invalid(barriers.energy)
-    shades = ax.contourf(scales[0] * barriers.x, scales[1] * barriers.y, energy, levels=levels, cmap="Blues")
-    lines = ax.contour(shades, colors="#333333", linewidths=0.7)
-    ax.clabel(lines, fontsize=7.5, fmt="%g")
-    ax.set(xlabel=axis_label(barriers.names[0], barriers.units[0]),
-           ylabel=axis_label(barriers.names[1], barriers.units[1]))
-    figure: Any = ax.get_figure(root=True)
-    figure.colorbar(shades, ax=ax, label="energy barrier [J]")
-    return ax

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont.drawing.mapplots import axis_label, scaled
+from mjcont.drawing.axes import axis_label, scaled
 from mjcont.results.points import Column
 
 if TYPE_CHECKING:

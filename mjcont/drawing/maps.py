@@ -7,22 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont.numerics.equations.problem import Array
+from mjcont.drawing.axes import axis_label, scaled
 from mjcont.results.quantities import units as unit_of
 
 if TYPE_CHECKING:
     from mjcont.results.maps import SpecialMap
-
-
-def scaled(values: Array, unit: str) -> Array:
-    """Return values as they are shown: radians in degrees."""
-    return np.degrees(values) if unit == "rad" else values
-
-
-def axis_label(name: str, unit: str) -> str:
-    """Return a name with its unit as it is shown."""
-    shown = "deg" if unit == "rad" else unit
-    return f"{name} [{shown}]" if shown not in ("", "1") else name
 
 
 def draw_line(found: SpecialMap, quantity: str, ax: Any) -> Any:

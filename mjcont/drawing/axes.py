@@ -1,0 +1,18 @@
+"""Axes of diagrams: labels with units, and values as they are shown."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mjcont.numerics.equations.problem import Array
+
+
+def axis_label(name: str, unit: str, degrees: bool = True) -> str:
+    """Return an axis label with its unit."""
+    unit = "deg" if degrees and unit == "rad" else unit.replace("*", " ")
+    return f"{name} [{unit}]" if unit not in ("", "1") else name
+
+
+def scaled(values: Array, unit: str) -> Array:
+    """Return values as they are shown: radians in degrees."""
+    return np.degrees(values) if unit == "rad" else values
