@@ -42,11 +42,12 @@ _ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS",
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that a figure shows: the claim, what was computed, and whether the claim holds."""
+    """One thing that a figure shows: the claim, what was computed, whether the claim holds, and on which model."""
 
     claim: str
     computed: str
     holds: bool
+    model: str = ""
 
     def __post_init__(self) -> None:
         """Make `holds` a plain bool, whatever NumPy gave."""
@@ -128,7 +129,7 @@ def run_script(main: Callable[[Path], Sequence[Finding]]) -> None:
     out = parser.parse_args().out
     out.mkdir(parents=True, exist_ok=True)
     findings = main(out)
-    print("\n".join(f"[{verdict(f)}] {f.claim}\n    {f.computed}" for f in findings))
+    print("\n".join(f"[{verdict(f)}] {f.model and f.model + ': '}{f.claim}\n    {f.computed}" for f in findings))
 
 
 def scripts_folder() -> Path:

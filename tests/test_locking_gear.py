@@ -46,7 +46,7 @@ def gear():
 
 @pytest.fixture(scope="module")
 def folds(gear):
-    """Return a function: FP1, FP2, FP3 in the paper's window around uplock, by falling theta_ov (computed once each)."""
+    """Return a function: the folds in the paper's window around uplock, by falling theta_ov (computed once each)."""
 
     @cache
     def found(load_factor, angle, f_ul=0.0):
