@@ -1,15 +1,17 @@
-"""Figure 6: the nose landing gear with every joint elastic.
+"""Figure 6: the nose landing gear, with every joint elastic, and the gear that locks.
 
-The gear of Section III (15 degrees of freedom, k_j = 1e6 N/m) at the folds of its equilibria near uplock. Rings:
-elastic joints; titles: theta_ov; orange: the spring between strut and locklink; red: the forces.
+Upper row: the gear of Section III (15 degrees of freedom, k_j = 1e6 N/m) locked down and at the folds of its equilibria
+near uplock. Lower rows: the gear that locks (nose_gear_locking, Section IV) locked down and at its three folds there.
+Rings: elastic joints; titles: theta_ov; orange: the spring between strut and locklink; red: the forces.
 """
 
 from pathlib import Path
 
 import numpy as np
+from _gear import LOCKING, Slice, angle_of, draw_both, load_case
 
 import mjcont as mc
-from mjcont.drawing.plotting import save_figure
+from mjcont.drawing.plotting import new_figure, save_figure
 from mjcont.paper.reproduce import Finding, run_script
 
 
@@ -21,8 +23,13 @@ def main(out: Path) -> list[Finding]:
     )
     folds = [p for b in diagram for p in b.of_kind("LP") if np.degrees(p["theta_1"]) < -20.0]
     folds.sort(key=lambda p: -p["theta_ov"])
-    poses = {f"fold at {np.degrees(p['theta_ov']):+.1f} deg": p for p in folds[:3]}
-    save_figure(mc.draw_poses(gear, {"downlock": "downlock_below", **poses}, cols=4, size=2.3), out / "fig06.png")
+    near = Slice.of(mc.Mechanism.from_xml(LOCKING), load_case())
+    figure, axes = new_figure(3, 4, (10.4, 8.8))
+    poses = {f"fold at {angle_of(p):+.1f} deg": p for p in folds[:3]}
+    mc.draw_poses(gear, {"downlock": "downlock_below", **poses}, axes=axes[0])
+    poses = {f"FP{k} at {angle_of(p):+.1f} deg": p for k, p in enumerate(near.folds, 1)}
+    draw_both(axes[1:], near.gear, {"downlock": "downlock_below", **poses})
+    save_figure(figure, out / "fig06.png")
     gap = max(abs(p[name]) for p in folds for name in gear.observables if name[:2] in ("x_", "z_"))
     return [
         Finding(

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from _gear import ANGLES, LOAD_FACTORS, Case
+from _gear import ANGLES, LOAD_FACTORS
+from _loci import Case
 from _rigid_gear import RigidGear
 
 import mjcont as mc

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from _gear import Case
+from _loci import Case
 from scipy import stats
 
 import mjcont as mc

@@ -17,8 +17,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from _gear import Case, angle_of
+from _gear import angle_of
 from _gusts import Aircraft, dryden, one_minus_cos
+from _loci import Case
 from _unlocking import (
     DURATION,
     MEASURES,

@@ -81,6 +81,8 @@ def draw_poses(
     mechanism: Mechanism,
     poses: Mapping[str, Pose],
     *,
+    axes: Sequence[Axes] | None = None,
+    window: tuple[tuple[float, float], tuple[float, float]] | None = None,
     cols: int = 4,
     labels: Labels = ("pins", "forces"),
     plane: str | None = None,
@@ -92,34 +94,45 @@ def draw_poses(
     ----------
     mechanism : Mechanism
     poses : mapping of title to Point, (nq,) array or keyframe name
+    axes : sequence of matplotlib Axes, optional
+        Where to draw, one a pose, so that a figure may show several mechanisms; default a new figure.
+    window : ((low, low), (high, high)), optional
+        The part of the plane that is shown, in m; default all of every pose.
     cols : int
-        Poses a row.
+        Poses a row, in a new figure.
     labels, plane
         As for `draw`.
     size : float
-        Longer side of a pose in inches.
+        Longer side of a pose in inches, in a new figure.
 
     Raises
     ------
     MjcontError
-        If there is no pose, or the model does not move in a plane.
+        If there is no pose or there are too few axes, or the model does not move in a plane.
     """
     if not poses:
         raise MjcontError("draw_poses needs at least one pose")
     shown = [picture(mechanism, pose, plane=plane) for pose in poses.values()]
     boxes = np.array([padded(s, _MARGIN if labels else _TIGHT) for s in shown])
-    box = np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
-    cols = max(1, min(cols, len(shown)))
-    rows = -(-len(shown) // cols)
-    width, height = _fitted(box, size)
-    figure, axes = plotting.new_figure(rows, cols, (cols * width, rows * (height + 0.3)), squeeze=False)
-    for ax in axes.flat[len(shown) :]:
+    box = np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)]) if window is None else np.array(window)
+    if axes is None:
+        cols = max(1, min(cols, len(shown)))
+        rows = -(-len(shown) // cols)
+        width, height = _fitted(box, size)
+        grid = plotting.new_figure(rows, cols, (cols * width, rows * (height + 0.3)), squeeze=False)[1]
+        axes = list(grid.flat)
+    if len(axes) < len(shown):
+        raise MjcontError(f"draw_poses needs an axes for each of {len(shown)} poses, got {len(axes)}")
+    for ax in axes[len(shown) :]:
         ax.axis("off")
-    for ax, title, pose in zip(axes.flat, poses, shown, strict=False):
+    for ax, title, pose in zip(axes, poses, shown, strict=False):
         plotting.set_panel_title(ax, title)
         render(ax, pose, box, _size(box), scale=0.85)
+        if window is not None:
+            ax.set(xlim=box[:, 0], ylim=box[:, 1])
+    figure: Any = axes[0].get_figure(root=True)
     figure.draw_without_rendering()
-    for ax, pose in zip(axes.flat, shown, strict=False):
+    for ax, pose in zip(axes, shown, strict=False):
         write_labels(ax, pose, _size(box), labels, 0.85)
     return figure
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that a figure shows: the claim, what was computed, and whether the claim holds."""
+    """One thing that a figure shows: the claim, what was computed, whether the claim holds, and on which model."""
 
     claim: str
     computed: str
     holds: bool
+    model: str = ""
 
     def __post_init__(self) -> None:
         """Make `holds` a plain bool, whatever NumPy gave."""

@@ -88,7 +88,7 @@ def run_script(main: Callable[[Path], Sequence[Finding]]) -> None:
     out = parser.parse_args().out
     out.mkdir(parents=True, exist_ok=True)
     findings = main(out)
-    print("\n".join(f"[{verdict(f)}] {f.claim}\n    {f.computed}" for f in findings))
+    print("\n".join(f"[{verdict(f)}] {f.model and f.model + ': '}{f.claim}\n    {f.computed}" for f in findings))
 
 
 def scripts_folder() -> Path:

@@ -169,3 +169,15 @@ def test_plotting_needs_neither_pyplot_nor_matplotlib_until_it_draws():
 
 def test_line_styles_differ():
     assert len({str(style) for style in LINE_STYLES.values()}) == 3
+
+
+def test_poses_of_several_mechanisms_share_a_figure_and_may_show_a_part_of_the_plane(overcentre):
+    figure, axes = new_figure(1, 2)
+    gear = mc.Mechanism.from_xml("nose_gear_locking")
+    mc.draw_poses(overcentre, {"above": overcentre.qpos0}, axes=axes[:1])
+    mc.draw_poses(gear, {"links": "uplock_above"}, axes=axes[1:], window=((-1.75, -0.75), (0.25, 0.85)))
+    assert [ax.get_title(loc="left") for ax in axes] == ["above", "links"]
+    assert axes[1].get_xlim() == pytest.approx((-1.75, 0.25))
+    assert axes[1].get_ylim() == pytest.approx((-0.75, 0.85))
+    with pytest.raises(mc.MjcontError, match="draw_poses needs an axes for each of 2 poses, got 1"):
+        mc.draw_poses(gear, {"a": "uplock_above", "b": "uplock_below"}, axes=axes[:1])

@@ -137,6 +137,17 @@ def test_reports_hold_findings_and_pictures_and_are_the_same_every_time(scripts,
     assert "| it is blue | red | does not hold |" in markdown
 
 
+def test_a_report_names_the_model_where_a_figure_has_several(scripts, tmp_path):
+    (scripts / "fig01.py").write_text(GOOD.replace('"1 < 2", True)', '"1 < 2", True, "first & second")'))
+    result = reproduce([1], tmp_path, say=quiet)
+    markdown = (tmp_path / "report.md").read_text()
+    assert "| Claim | Computed | Model |  |\n|---|---|---|---|\n" in markdown
+    assert "| one \\| two & three | 1 < 2 | first & second | holds |" in markdown
+    assert "| it is blue | red |  | does not hold |" in markdown
+    assert "<th>Model</th>" in result.report.read_text()
+    assert "<td>first &amp; second</td>" in result.report.read_text()
+
+
 def test_the_report_covers_figures_of_earlier_runs(scripts, tmp_path):
     (scripts / "fig03.py").write_text(GOOD.replace("fig01", "fig03").replace("Figure 1", "Figure 3"))
     reproduce([1], tmp_path, say=quiet)

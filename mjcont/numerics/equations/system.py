@@ -21,6 +21,7 @@ from mjcont.numerics.equations.problem import Array, Pencil, Problem, Ranges, Va
 
 _LOG_SPAN = 1e3
 _GRADIENT_STEP = 1e-3
+_SLOPE_STEP = 5e-3  # the noise of a condition with stiff bushes over it and the truncation balance there
 # a row of J may vanish at a special point: it must not be blown up on the way there
 ROW_GUARD = 1e-3
 _VANISHES = 1e-10
@@ -298,38 +299,47 @@ class System:
     def _condition_rows(self, local: Local, y: Array) -> Array:
         rows = np.zeros((self.equations - self.n, self.n + self.k))
         at, rest = 0, []
-        for c, aux in zip(self.conditions, self._aux(y), strict=True):
+        for c in self.conditions:
             gradient: Callable[..., Array] | None = getattr(c, "gradient", None)
             if gradient is not None:
                 rows[at : at + c.count, : self.n + len(self.free)] = gradient(local, self, y)
             else:
-                rest.append((at, c, aux))
+                rest.append((at, c))
             at += c.count
         if rest:
-            self._difference_rows(rows, rest, local, y)
+            found, done = self.gradients([c for _, c in rest], local, y), 0
+            for at, c in rest:
+                rows[at : at + c.count] = found[done : done + c.count]
+                done += c.count
         return rows
 
-    def _difference_rows(self, rows: Array, rest: Sequence[Any], local: Local, y: Array) -> None:
-        """Fill the rows of conditions without a gradient by centred differences: good enough for Newton's matrix."""
-
-        def conditions_at(step: Array) -> tuple[Array, Array]:
-            x, y1 = self.move(local.x, y, step)
-            moved = self.local(x, y1)
-            parts = self._aux(y1)
-            return np.concatenate([c.value(moved, parts[self.conditions.index(c)]) for _, c, _ in rest]), y1
-
-        gradient = np.empty((sum(c.count for _, c, _ in rest), self.n + self.k))
+    def gradients(self, conditions: Sequence[Any], local: Local, y: Array) -> Array:
+        """Return the gradients of conditions by centred differences, (count, n + k): good enough for most of Newton."""
+        gradient = np.empty((sum(c.count for c in conditions), self.n + self.k))
         for j in range(self.n + self.k):
             h = self._gradient_step(j - self.n, y)
             step = np.zeros(self.n + self.k)
             step[j] = h
-            (after, beyond), (before, behind) = conditions_at(step), conditions_at(-step)
+            (after, beyond), (before, behind) = (self._conditions_at(conditions, local, y, s) for s in (step, -step))
             apart = 2.0 * h if j < self.n else beyond[j - self.n] - behind[j - self.n]  # one-sided at a bound
             gradient[:, j] = (after - before) / apart
-        done = 0
-        for at, c, _ in rest:
-            rows[at : at + c.count] = gradient[done : done + c.count]
-            done += c.count
+        return gradient
+
+    def slope(self, condition: Any, local: Local, y: Array, direction: Array) -> Array:
+        """Return the derivative of a condition along a scaled direction (n + k,), fourth order, (count,)."""
+        h = _SLOPE_STEP / float(np.abs(direction).max())
+        near, far = (
+            self._conditions_at([condition], local, y, s * direction)[0]
+            - self._conditions_at([condition], local, y, -s * direction)[0]
+            for s in (h, 2.0 * h)
+        )
+        return np.asarray((8.0 * near - far) / (12.0 * h))
+
+    def _conditions_at(self, conditions: Sequence[Any], local: Local, y: Array, step: Array) -> tuple[Array, Array]:
+        """Return the conditions at a scaled step, (count,), and the y there, which stays within its bounds."""
+        x, moved = self.move(local.x, y, step)
+        at, parts = self.local(x, moved), self._aux(moved)
+        return np.concatenate([c.value(at, parts[self.conditions.index(c)]) for c in conditions]), moved
 
     def _gradient_step(self, i: int, y: Array) -> float:
         """Return the difference step for y[i]: smaller where a parameter is small in its range; i < 0 for the state."""
