@@ -160,8 +160,8 @@ def slide(stiffness):
     return mc.Mechanism.from_xml(
         '<mujoco><option gravity="0 0 0"/><worldbody><site name="l" pos="-1 0 0"/><body><joint name="z" type="slide" '
         f'axis="0 0 1" stiffness="{stiffness}" damping="1"/><geom size=".1" mass="1"/><site name="s"/></body>'
-        '</worldbody><tendon><spatial stiffness="100" springlength="1.2"><site site="l"/><site site="s"/></spatial></tendon>'
-        '<actuator><motor name="P" joint="z"/></actuator></mujoco>'
+        '</worldbody><tendon><spatial stiffness="100" springlength="1.2"><site site="l"/><site site="s"/></spatial>'
+        '</tendon><actuator><motor name="P" joint="z"/></actuator></mujoco>'
     )
 
 
