@@ -13,7 +13,7 @@ from scipy import sparse
 import mjcont as mc
 
 NASTY = (0.0, -0.0, 1e-300, -1e-12, 1e-9, 1.0, -3.0, 1e6, 1e12, 1e300, -1e300, math.nan, math.inf, -math.inf)
-SHORT = {"max_points": 25, "max_seconds": 5.0}
+SHORT = {"max_points": 12, "max_seconds": 3.0}
 
 
 def run(seed):
@@ -132,8 +132,8 @@ def options(rng):
     if rng.random() < 0.3:
         found["ds_max"] = abs(number(rng, 0.1))
     if rng.random() < 0.1:
-        names = ["ds", "ds_min", "tol", "angle", "chord", "max_size", "max_corrections"]
-        found[str(rng.choice(names))] = number(rng, 0.3)
+        name = rng.choice(["ds", "ds_min", "tol", "angle", "chord", "max_size", "max_corrections"])
+        found[str(name)] = number(rng, 0.3)
     return found
 
 
