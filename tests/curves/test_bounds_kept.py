@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -12,7 +12,11 @@ import pytest
 import mjcont as mc
 from mjcont.mechanism.evaluation import Evaluator
 from mjcont.numerics.equations.differences import CENTRED, PARAMETER, kept_within
-from mjcont.numerics.step.hermite import CLUSTER, node_windows
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import Free, System
+from mjcont.numerics.step.arclength import CurvePoint, Earlier, predict
+from mjcont.numerics.step.hermite import node_windows
+from mjcont.numerics.walk.interior import Gap, fill
 
 Law = Callable[[Any, Any], list[float]]
 
@@ -143,10 +147,36 @@ def test_a_value_beyond_the_bounds_keeps_its_rule():
     assert kept_within(PARAMETER, 0.1, 2.0, (0.0, 1.0)) == (PARAMETER, 0.1)
 
 
-def test_a_gap_is_interpolated_through_no_cluster():
+@pytest.mark.parametrize("cluster", [0.02, 0.2])
+def test_a_gap_is_interpolated_through_no_cluster(cluster: float) -> None:
     s = np.array([0.0, 1e-9, 2e-9, 1e-3, 1.0, 1.0 + 1e-9, 2.0])
-    windows, sizes = node_windows(s, np.array([3, 5]), 6)
+    windows, sizes = node_windows(s, np.array([3, 5]), 6, cluster)
     for gap in (3, 5):
         nodes = np.sort(s[windows[gap, : sizes[gap]]])
         assert {s[gap], s[gap + 1]} <= set(nodes)
-        assert np.diff(nodes).min() >= CLUSTER * (s[gap + 1] - s[gap])
+        assert np.diff(nodes).min() >= cluster * (s[gap + 1] - s[gap])
+
+
+def curve_point(s: float, y: float, slope: float, past: tuple[Earlier, ...]) -> CurvePoint:
+    """Return a point (u, a) = (s, y) of a curve whose tangent has a given slope."""
+    tangent = np.array([1.0, slope]) / math.hypot(1.0, slope)
+    jac = np.array([[-slope, 1.0]])
+    return CurvePoint(np.array([s]), np.array([y]), tangent, 1.0, cast(Any, None), jac, s, past=past)
+
+
+def test_a_polynomial_that_swings_is_refused_before_anything_is_evaluated():
+    # the slope at the point before is what noise makes of it: the quintic through the three is off by some lengths
+    field = mc.VectorField(lambda u, p: [p["a"]], [0.0], {"a": 0.0})
+    system = System(field, {"a": 0.0}, [Free("a", -10.0, 10.0)])
+    before = Earlier(-0.03, np.array([-0.03, 0.0]), np.array([-1e3, 1.0]), np.array([[0.0, 1.0]]))
+    old = curve_point(0.0, 0.0, 0.0, (before,))
+    new = curve_point(1.0, 0.0, 0.0, (Earlier(0.0, np.array([-1.0, 0.0]), old.tangent, old.jac), before))
+    assert fill(system, [Gap(old, new, 3)], Settings(), exact=False) == [
+        "the polynomial through the points around the step swings"
+    ]
+    assert field.evaluations == 0
+
+
+def test_a_prediction_that_swings_goes_through_fewer_points():
+    before = Earlier(-0.03, np.array([-0.03, 0.0]), np.array([-1e3, 1.0]), np.array([[0.0, 1.0]]))
+    assert predict(curve_point(0.0, 0.0, 0.0, (before,)), 0.5) == pytest.approx([0.5, 0.0])

@@ -123,7 +123,7 @@ def test_a_singular_matrix_costs_its_own_row_only():
 def test_rows_that_do_not_settle_are_left_out_and_a_note_says_so(monkeypatch):
     plain, fine = branch_of("overcentre", math.inf), branch_of("overcentre")
     assert not fine.notes
-    monkeypatch.setattr("mjcont.numerics.walk.between._ROUNDS", 0)
+    monkeypatch.setattr("mjcont.numerics.walk.between._ERROR", -1.0)  # no residual is that small
     branch = mc.continue_equilibria(mc.Mechanism.from_xml("overcentre"), "F", BOUNDS, {"F": START})
     assert len(branch) == len(plain)
     missing = len(fine) - len(plain)

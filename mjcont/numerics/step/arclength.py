@@ -36,6 +36,8 @@ _DIP, _FAR_BELOW, _PROBE = 0.7, 0.1, 1e-3
 _CLUSTER, _NOISY = 0.2, 1e-5
 # how far behind a start the points lie from which the other direction is predicted
 _BEHIND = 0.16
+# a step whose prediction ends within this part of its way from a bound is one to the bound
+_ALMOST = 1.1
 # the contraction of the last corrector counts as this many times worse for the next
 _TRUST = 3.0
 
@@ -153,12 +155,15 @@ def predict(point: CurvePoint, h: float) -> Array:
     With bushes of stiffness k a prediction that opens the pins by d loads them with k d, so a high order is what
     allows long steps with stiff joints.
     """
-    past = _apart(point, h)
-    if not past:
-        return h * point.tangent
-    values, slopes = hermite([0.0, *(e.s - point.s for e in past)], h)
-    steps, tangents = (e.step for e in past), (e.tangent for e in past)
-    return combine([*slopes, *values[1:]], [point.tangent, *tangents, *steps])
+    past, straight = _apart(point, h), h * point.tangent
+    while past:
+        values, slopes = hermite([0.0, *(e.s - point.s for e in past)], h)
+        steps, tangents = (e.step for e in past), (e.tangent for e in past)
+        step = combine([*slopes, *values[1:]], [point.tangent, *tangents, *steps])
+        if length(step - straight) <= _WANDER * abs(h):  # else the polynomial swings: it goes through too many points
+            return step
+        past = past[:-1]
+    return straight
 
 
 def _apart(point: CurvePoint, h: float) -> list[Earlier]:
@@ -190,9 +195,10 @@ def remembered(point: CurvePoint, step: Array) -> tuple[Earlier, ...]:
 def aim(system: System, point: CurvePoint, h: float, prediction: Array) -> tuple[int, float, float] | None:
     """Return where the prediction of a step h leaves the bounds of a free parameter, None where it does not.
 
-    That is the index in y, the bound as a coordinate, and the part of h after which it is met.
+    That is the index in y, the bound as a coordinate, and how far ahead it is met: a little more than h where the step
+    would end just before, too near for its corrector.
     """
-    ahead = point.y + prediction[system.n :]
+    ahead, reach = point.y + _ALMOST * prediction[system.n :], _ALMOST * h
     met: list[tuple[float, int, float]] = []
     for i in np.flatnonzero((ahead < system.lowest) | (ahead > system.highest)).tolist():
         bound = float(system.lowest[i] if ahead[i] < system.lowest[i] else system.highest[i])
@@ -200,7 +206,9 @@ def aim(system: System, point: CurvePoint, h: float, prediction: Array) -> tuple
         def missing(t: float, i: int = i, bound: float = bound) -> float:
             return float(point.y[i] + predict(point, t)[system.n + i]) - bound
 
-        met.append((brentq(missing, 0.0, h) if missing(0.0) * missing(h) < 0.0 else 0.0, i, bound))
+        at_start, at_end = missing(0.0), missing(reach)
+        if at_start == 0.0 or at_start * at_end < 0.0:
+            met.append((brentq(missing, 0.0, reach) if at_start else 0.0, i, bound))
     if not met:
         return None
     t, i, bound = min(met)
@@ -355,15 +363,27 @@ def turned_back(system: System, points: Sequence[CurvePoint]) -> CurvePoint:
 
 
 def land(
-    system: System, point: CurvePoint, index: int, target: float, h: float, settings: Settings
+    system: System,
+    point: CurvePoint,
+    index: int,
+    target: float,
+    h: float,
+    settings: Settings,
+    *,
+    fresh: bool = False,
 ) -> CurvePoint | str:
-    """Return the point about h ahead at which y[index] = target, or a sentence that says why it is not met there."""
+    """Return the point about h ahead at which y[index] = target, or a sentence that says why it is not met there.
+
+    `fresh` as in `advance`.
+    """
     row = np.zeros(system.n + system.k)
     row[system.n + index] = 1.0
     prediction = system.admissible(point.x, predict(point, h))
     x, y = system.move(point.x, point.y, prediction)
     y[index] = target
-    c = correct(system, x, y, row, None, settings)
+    extrapolated = not (fresh or system.conditions or sparse.issparse(point.jac))
+    lu = Factored(with_row(_matrix_ahead(point, h), row)) if extrapolated else None
+    c = correct(system, x, y, row, lu, settings)
     if c.failure:
         return c.failure
     chord = system.difference(c.x, c.y, point.x, point.y)

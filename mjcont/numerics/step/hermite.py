@@ -14,9 +14,6 @@ import numpy as np
 
 from mjcont.numerics.equations.problem import Array
 
-# points nearer to each other than this part of a gap are a cluster: a polynomial through them is noise
-CLUSTER = 0.2
-
 
 def lagrange(nodes: Sequence[float], at: float) -> list[float]:
     """Return the weight of each node's value in the polynomial through all."""
@@ -72,23 +69,24 @@ def mixed(weights: Array, matrices: Array, windows: Array) -> Array:
     return out
 
 
-def node_windows(s: Array, gaps: Array, most: int) -> tuple[Array, Array]:
+def node_windows(s: Array, gaps: Array, most: int, cluster: float) -> tuple[Array, Array]:
     """Return the points through which gaps are interpolated, and how many they are, by the point before the gap.
 
-    They are (N - 1, k) and (N - 1,): of each row of points the first so many count.
+    They are (N - 1, k) and (N - 1,): of each row of points the first so many count. Points nearer to each other than a
+    part `cluster` of the gap do not count twice: a polynomial through them is noise.
     """
     lengths, count = np.diff(s), min(most, len(s))
     first = np.clip(gaps - (count // 2 - 1), 0, len(s) - count)
     windows, sizes = np.zeros((len(lengths), count), dtype=int), np.zeros(len(lengths), dtype=int)
     windows[gaps], sizes[gaps] = first[:, None] + np.arange(count), count
     shortest = np.lib.stride_tricks.sliding_window_view(lengths, count - 1).min(axis=1)
-    for i in gaps[shortest[first] < CLUSTER * lengths[gaps]].tolist():
-        chosen = _apart(s, i, most)
+    for i in gaps[shortest[first] < cluster * lengths[gaps]].tolist():
+        chosen = _apart(s, i, most, cluster)
         windows[i, : len(chosen)], sizes[i] = chosen, len(chosen)
     return windows, sizes
 
 
-def _apart(s: Array, i: int, most: int) -> list[int]:
+def _apart(s: Array, i: int, most: int, cluster: float) -> list[int]:
     """Return the points nearest to the gap after i, no cluster among them."""
     chosen, gap = [i, i + 1], s[i + 1] - s[i]
     low, high = i - 1, i + 2
@@ -96,7 +94,7 @@ def _apart(s: Array, i: int, most: int) -> list[int]:
         before = s[i] - s[low] if low >= 0 else math.inf
         behind = s[high] - s[i + 1] if high < len(s) else math.inf
         k = low if before <= behind else high
-        if min(abs(s[k] - s[j]) for j in chosen) >= CLUSTER * gap:
+        if min(abs(s[k] - s[j]) for j in chosen) >= cluster * gap:
             chosen.append(k)
         low, high = (low - 1, high) if k == low else (low, high + 1)
     return chosen

@@ -16,9 +16,11 @@ from mjcont.numerics.equations.algebra import inverses
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import System, equation_sizes
 from mjcont.numerics.step.arclength import CurvePoint
-from mjcont.numerics.step.hermite import CLUSTER, arc, lagrange_each, mixed, node_windows
+from mjcont.numerics.step.hermite import arc, lagrange_each, mixed, node_windows
 
 _NODES = 8
+# points nearer to each other than this part of a gap are a cluster
+_CLUSTER = 0.2
 # gaps shorter than this, or with ends whose tangents differ by more (as a length), stay as they are
 _SHORT, _TURNED = 1e-7, 0.6
 # rows that are corrected together at least, and entries of their matrices at most
@@ -79,7 +81,7 @@ def rows_between(system: System, points: Sequence[CurvePoint], chord: float) -> 
         return None, 0
     firsts = np.repeat(np.cumsum(counts) - counts, counts)
     fraction = (np.arange(len(after)) - firsts + 1.0) / (counts[after] + 1.0)
-    windows, sizes = node_windows(nodes.s, np.flatnonzero(counts), _NODES)
+    windows, sizes = node_windows(nodes.s, np.flatnonzero(counts), _NODES, _CLUSTER)
     parts: list[Between] = []
     together = max(_ENTRIES // (system.n + 1) ** 2, _TOGETHER)
     for size in np.unique(sizes[after]).tolist():
@@ -118,7 +120,7 @@ def _counts(nodes: _Nodes, chord: float) -> Array:
     bends = np.where(lengths > _SHORT, turns / np.maximum(lengths, _SHORT), 0.0)
     largest = bends.copy()
     for mine, other in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):
-        near = lengths[other] >= CLUSTER * lengths[mine]  # curvature grows towards a neighbour that bends more
+        near = lengths[other] >= _CLUSTER * lengths[mine]  # curvature grows towards a neighbour that bends more
         largest[mine] = np.maximum(largest[mine], np.where(near, 0.5 * (bends[mine] + bends[other]), 0.0))
     pieces = np.ceil(lengths * np.sqrt(largest / (8.0 * chord)))
     pieces[(lengths <= _SHORT) | (turns > _TURNED)] = 1

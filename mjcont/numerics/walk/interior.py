@@ -26,6 +26,10 @@ from mjcont.numerics.step.hermite import hermite_each, mixed, node_windows
 
 # points inside a step at most, and points through which they are interpolated
 MOST, _NODES = 95, 6
+# points nearer to each other than this part of a gap are a cluster: a curve begins with steps that grow threefold, all
+# of which stiff bushes need, and at this ratio rounding is amplified to 1e-8 of the step. A polynomial that leaves the
+# chord by more than this part of its length swings
+_CLUSTER, _SWINGS = 0.02, 0.5
 # a step that is longer than asked for by less than this part needs no point inside
 _SLACK = 0.1
 _ROUNDS = 5
@@ -82,13 +86,17 @@ class Gap:
 
 @dataclass(slots=True)
 class _Rows:
-    """The points inside several steps side by side: arclengths (m,), states, coordinates, tangents and matrices."""
+    """The points inside several steps side by side: arclengths (m,), states, coordinates, tangents and matrices.
+
+    `astray` is the first step whose points lie far from its chord, the number of steps if there is none.
+    """
 
     at: Array
     states: Array
     coordinates: Array
     tangents: Array
     jacs: Array
+    astray: int
 
 
 def count_inside(length: float, angle: float, settings: Settings) -> int:
@@ -106,6 +114,10 @@ def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool
     """
     n = system.n
     rows = _interpolated(system, gaps)
+    if rows.astray < len(gaps):
+        found = fill(system, gaps[: rows.astray], settings, exact=exact) if rows.astray else []
+        refused = any(isinstance(f, str) for f in found)
+        return found if refused else [*found, "the polynomial through the points around the step swings"]
     first: Array | None = None
     if exact:
         first, rows.jacs = _linearized(system, rows.states, rows.coordinates)
@@ -116,25 +128,25 @@ def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool
     errors = np.max(np.abs(residuals) / equation_sizes(rows.jacs), axis=1)
     columns = inverse[:, :, -1]
     rows.tangents = columns / np.sqrt((columns * columns).sum(axis=1))[:, None]
-    signs, found, start = np.sign(np.linalg.det(matrix)), list[Interior](), 0
-    refused: list[str] = []
+    signs, settled, start = np.sign(np.linalg.det(matrix)), list[Interior](), 0
+    refusal: list[str] = []
     for gap, history in zip(gaps, sizes, strict=False):
         part = slice(start, start + gap.count)
         start += gap.count
         if not gap.count:
-            found.append(Interior([]))
+            settled.append(Interior([]))
         elif not _settled(history):
-            refused.append("the points within the step do not settle between its ends")
+            refusal.append("the points within the step do not settle between its ends")
         elif not errors[part].max() < LARGEST_ERROR:
-            refused.append("the points within the step stall away from the curve")
+            refusal.append("the points within the step stall away from the curve")
         else:
             points = _points(system, rows, part, residuals, errors, signs)
-            found.append(Interior(points, history[0], history[1] / max(history[0], _ROUNDING)))
-        if refused:
+            settled.append(Interior(points, history[0], history[1] / max(history[0], _ROUNDING)))
+        if refusal:
             break
-    checked = _checked(system, gaps[: len(found)], found, settings)
-    complete = len(checked) == len(found) and not any(isinstance(c, str) for c in checked)
-    return [*checked, *refused] if complete else checked
+    checked = _checked(system, gaps[: len(settled)], settled, settings)
+    complete = len(checked) == len(settled) and not any(isinstance(c, str) for c in checked)
+    return [*checked, *refusal] if complete else checked
 
 
 def _interpolated(system: System, gaps: Sequence[Gap]) -> _Rows:
@@ -149,7 +161,7 @@ def _interpolated(system: System, gaps: Sequence[Gap]) -> _Rows:
     part = (np.arange(len(after)) - np.repeat(np.cumsum(counts) - counts, counts) + 1.0) / (counts[after] + 1.0)
     base = after + behind
     at = s[base] + part * (s[base + 1] - s[base])
-    nodes, sizes = node_windows(s, np.unique(base), _NODES)
+    nodes, sizes = node_windows(s, np.unique(base), _NODES, _CLUSTER)
     steps, turned, matrices = np.empty((len(at), ways.shape[1])), np.empty((len(at), ways.shape[1])), []
     for size in np.unique(sizes[base]).tolist():
         rows = np.flatnonzero(sizes[base] == size)
@@ -165,7 +177,9 @@ def _interpolated(system: System, gaps: Sequence[Gap]) -> _Rows:
     states, coordinates = system.move_each(
         np.array([p.x for p in starts])[after], np.array([p.y for p in starts])[after], steps
     )
-    return _Rows(at, states, coordinates, turned, jacs)
+    off = steps - part[:, None] * chords[after]
+    swings = after[(off * off).sum(axis=1) > (_SWINGS * (s[base + 1] - s[base])) ** 2]
+    return _Rows(at, states, coordinates, turned, jacs, int(swings.min()) if len(swings) else len(gaps))
 
 
 def _in_order(parts: Sequence[tuple[Array, Array]]) -> Array:

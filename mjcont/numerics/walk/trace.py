@@ -256,7 +256,9 @@ class Walker:
     def _landed(self, point: CurvePoint, h: float, index: int, bound: float, ahead: float) -> Leap | tuple[str, float]:
         """Return the step that ends on a bound which its prediction meets, or why not and the length to try instead."""
         settings = self.long.limits(h) if self.long is not None else self.settings
-        landed = land(self.system, point, index, bound, ahead, settings)
+        landed = land(self.system, point, index, bound, ahead, settings, fresh=self._fresh)
+        if isinstance(landed, str) and not self._fresh:
+            landed = land(self.system, point, index, bound, ahead, settings, fresh=True)
         if isinstance(landed, str):
             return landed, 0.4 * min(h, max(ahead, 0.1 * h))
         p = self.system.free[index]
