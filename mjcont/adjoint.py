@@ -17,11 +17,13 @@ from mjcont.numerics.adjoint import Adjoint
 from mjcont.numerics.defining import Hopf
 from mjcont.numerics.differences import FOURTH_ORDER, PARAMETER, jacobian_from_rows, jacobian_steps
 from mjcont.numerics.problem import Array
-from mjcont.numerics.system import System
+from mjcont.numerics.system import System, equation_scale
+from mjcont.quantities import Parameter
 
 PER_CENT = 0.01
 DEGREE = math.radians(1.0)
-_BREAKS = 1e-6
+# parts of what a parameter could do at most, and of the equations' size over the parameter's range: less is rounding
+_BREAKS, _NOTHING = 1e-6, 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,7 +208,7 @@ def sensitivities(
     for i, name in enumerate(names):
         slope = adjoint.equations_slope(name, conditions)
         table[i] = [q.direct(name) - w @ slope for q, w in zip(targets, weights, strict=True)]
-        if unfolding is not None and abs(unfolding @ slope) > _BREAKS * (np.abs(unfolding) @ np.abs(slope)):
+        if unfolding is not None and _breaks(adjoint, unfolding, slope, parameters_of[name]):
             table[i] = math.nan
             notes.append(f"{name} breaks the branch point: it unfolds, there is no derivative")
     given = {q.name: q.value for q in targets}
@@ -299,6 +301,20 @@ def _observable(adjoint: Adjoint, name: str, gradient: Array) -> _Quantity:
         gradient[system.n + i] = along(p.name) * p.slope(float(adjoint.y[i]))
     value = float(problem.measure(x[None], here, [name])[0, 0])
     return _Quantity(name, value, problem.observables[name].unit, gradient, along)
+
+
+def _breaks(adjoint: Adjoint, unfolding: Array, slope: Array, parameter: Parameter) -> bool:
+    """Whether a parameter unfolds a branch point, beyond the rounding of both vectors.
+
+    They are compared as wholes, in units of each equation's size: where one vanishes by symmetry the products of the
+    components are rounding times rounding. A parameter that acts on no equation breaks nothing.
+    """
+    size = np.ones(len(slope))
+    size[: adjoint.system.n] = equation_scale(adjoint.local)
+    weights, acts = float(np.linalg.norm(unfolding / size)), float(np.linalg.norm(slope * size))
+    by = abs(float(unfolding @ slope))
+    width = max(abs(parameter.value), parameter.bounds[1] - parameter.bounds[0])
+    return by > _BREAKS * weights * acts and by * width > _NOTHING * weights
 
 
 def _unfolding(adjoint: Adjoint) -> Array | None:

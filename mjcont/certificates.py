@@ -27,6 +27,7 @@ from mjcont.continuation import hold_rigid_modes
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.inputs import DataInputs
 from mjcont.mechanism import Mechanism
+from mjcont.numerics.algebra import singular
 from mjcont.numerics.problem import Array, Pencil
 from mjcont.numerics.spectrum import quadratic_eigenvalues
 from mjcont.rows import load_side
@@ -303,8 +304,8 @@ def _vectors(pencil: Pencil, s: complex) -> tuple[Array, Array]:
     # rows and columns are scaled so that light and stiff coordinates weigh alike
     scale = 1.0 / np.sqrt(np.diag(mass))
     matrix = (s**2 * mass + s * damping + pencil.stiffness) * np.outer(scale, scale)
-    u, sigma, vh = np.linalg.svd(matrix)
-    kernel = np.flatnonzero(sigma <= max(1e-7 * sigma[0], 10.0 * sigma[-1]))
+    u, sigma, vh = singular(matrix)
+    kernel = np.flatnonzero(~(sigma > max(1e-7 * sigma[0], 10.0 * sigma[-1])))
     p, q = scale[:, None] * u[:, kernel], scale[:, None] * vh[kernel].conj().T
     if s.imag == 0.0:
         p, q = p.real, q.real

@@ -98,7 +98,8 @@ def run_directions(
             if isinstance(first, str):
                 traces.append(Trace([], [], End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
-            traces.append(trace(walker, first, report))
+            known = [e for t in traces for e in t.special]
+            traces.append(trace(walker, first, report, known))
     return traces
 
 

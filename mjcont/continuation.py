@@ -15,9 +15,11 @@ from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError, 
 from mjcont.numerics.arclength import CurvePoint, first_point
 from mjcont.numerics.equilibria import square_system
 from mjcont.numerics.events import Located, ScalarZero
+from mjcont.numerics.guard import guarded
 from mjcont.numerics.newton import Corrected, find_start, solve
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
+from mjcont.numerics.steps import End, Status
 from mjcont.numerics.system import Free, System
 from mjcont.numerics.trace import Walker
 from mjcont.walkers import equilibrium_walker, monitor_of, point_stop
@@ -197,7 +199,9 @@ def iterate_equilibria(
     if isinstance(first, str):
         raise StartError(f"the curve could not be entered: {first}")
     yield make_point(system.problem, first.x, system.values(first.y))
-    for item in walker.walk(first):
+    for item in guarded(walker.walk(first)):
+        if isinstance(item, End) and item.status is Status.FAILED:
+            raise MjcontError(item.message)
         if isinstance(item, CurvePoint):
             yield make_point(system.problem, item.x, system.values(item.y))
         elif isinstance(item, Located):

@@ -16,7 +16,7 @@ from mjcont.continuation import (
     find_equilibrium,
     make_settings,
 )
-from mjcont.errors import BoundsError, MjcontError
+from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.numerics.arclength import CurvePoint, point_from
 from mjcont.numerics.events import Located
 from mjcont.numerics.newton import correct, solve
@@ -133,7 +133,7 @@ def _through(
         if isinstance(first, str):
             halves.append(Trace([], [], End(Status.NO_START, f"the branch could not be entered: {first}")))
             continue
-        halves.append(trace(walker, first, reporter(system, progress)))
+        halves.append(trace(walker, first, reporter(system, progress), [e for h in halves for e in h.special]))
     if not any(h.points for h in halves):
         return None
     local = system.local(x, y)
@@ -186,12 +186,16 @@ def bifurcation_diagram(
     Parameters
     ----------
     starts : a start (dict or point), or several; default the model's own values and pose.
-    keyframes : further starts by keyframe, all at the first start's parameters.
+    keyframes : further starts by keyframe, all at the first start's parameters, or the model's without one.
     max_branches : limit on the number of branches.
     """
     first: Sequence[Any] = [starts] if starts is None or isinstance(starts, Mapping | Point) else list(starts)
+    if not first and not keyframes:
+        raise ParameterError("starts is empty: give a start, or leave it out for the model's own values and pose")
+    if max_branches < 1:
+        raise ParameterError(f"max_branches must be at least 1, got {max_branches}")
     tries: list[tuple[Any, str | None]] = [(s, None) for s in first] if not keyframes or starts is not None else []
-    tries += [(first[0], k) for k in keyframes]
+    tries += [(first[0] if first else None, k) for k in keyframes]
     branches: list[Branch] = []
     notes: list[str] = []
     for start, keyframe in tries:

@@ -20,6 +20,7 @@ from mjcont.energy import potential_energy, without_potential
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.escape import Landing, escape
 from mjcont.legs import FRACTION, Leg, unwrapped
+from mjcont.numerics.algebra import eigenvectors, singular, solve
 from mjcont.numerics.arclength import CurvePoint
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
@@ -331,9 +332,9 @@ def _mode(problem: Any, local: Local, kind: str) -> Array:
     if kind == "HB" and pencil.mass is not None and pencil.damping is not None:
         ev = quadratic_eigenvalues(pencil.mass, pencil.damping, -jac)
         s = ev[np.argmax(np.where(ev.imag > 0, ev.real, -np.inf))]
-        _, _, vh = np.linalg.svd(s**2 * pencil.mass + s * pencil.damping - jac)
+        _, _, vh = singular(s**2 * pencil.mass + s * pencil.damping - jac)
         return vh[-1].conj().real
-    values, vectors = np.linalg.eig(jac if pencil.mass is None else np.linalg.solve(pencil.mass, jac))
+    values, vectors = eigenvectors(jac if pencil.mass is None else solve(pencil.mass, jac))
     return vectors[:, np.argmax(values.real)].real
 
 

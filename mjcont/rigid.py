@@ -14,6 +14,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from mjcont.numerics.algebra import least_squares, singular, solve
 from mjcont.numerics.problem import Values
 
 _AXES = "xyz"
@@ -22,6 +23,8 @@ _THROUGH = re.compile(r"(rotation about [xyz]) through \((.*)\)")
 _RIGID = 1e-9
 _NOTHING = 1e-12
 _SAME = 1e-6
+# components of a unit twist that are rounding
+_ROUNDS = 1e-9
 _STATES = 12
 # states after which it may be plain already that something opposes every motion
 _EARLY = (0, 3, 6)
@@ -46,7 +49,7 @@ def directions(model: mujoco.MjModel, data: mujoco.MjData, names: Iterable[str])
     found = {}
     for name in names:
         wanted = moved @ twist(name)
-        z = np.linalg.lstsq(jac, wanted, rcond=None)[0]
+        z = least_squares(jac, wanted)
         z[np.abs(z) < _NOTHING * np.abs(z).max()] = 0.0
         if np.linalg.norm(jac @ z - wanted) < _RIGID * np.linalg.norm(wanted) and z.any():
             found[name] = z
@@ -78,7 +81,7 @@ def _stacked(barred: list[np.ndarray], work: list[np.ndarray], largest: float) -
 
 def _least(barred: list[np.ndarray], work: list[np.ndarray], largest: float) -> float:
     """Return a lower bound of the least singular value of what opposes rigid motions, for forces ten times as large."""
-    return float(np.linalg.svd(_stacked(barred, work, 10.0 * largest), compute_uv=False)[-1])
+    return float(singular(_stacked(barred, work, 10.0 * largest))[1][-1])
 
 
 def zero_modes(
@@ -107,7 +110,7 @@ def zero_modes(
         jac, moved = _bodies(model, position(beside))
         if not len(jac):
             return ()
-        z = np.linalg.lstsq(jac, moved, rcond=None)[0]
+        z = least_squares(jac, moved)
         barred.append((jac @ z - moved) / np.abs(moved).max())
         work.append(force @ z / (np.abs(z).max() or 1.0))
         largest = max(largest, np.abs(force).max())
@@ -115,7 +118,7 @@ def zero_modes(
             return ()  # what opposes every motion here does so whatever other states add
     opposed = _stacked(barred, work, largest)
     if among is None:
-        _, sizes, vh = np.linalg.svd(opposed, full_matrices=False)
+        _, sizes, vh = singular(opposed)
         names = _named(vh[sizes <= _RIGID])
     else:
         names = [n for n in among if np.linalg.norm(opposed @ twist(n)) <= _SAME]
@@ -124,13 +127,14 @@ def zero_modes(
 
 def _named(free: np.ndarray) -> list[str]:
     """Return names of motions that span the twists `free` (k, 6), orthonormal rows: about points where need be."""
-    found = []
+    found: list[str] = []
+    free = np.where(np.abs(free) > _ROUNDS, free, 0.0)  # a translation is no rotation about a point far away
     for i, name in enumerate(NAMES):
         unit = np.eye(6)[i]
         if np.linalg.norm(unit - free.T @ (free @ unit)) < _SAME:
             found.append(name)
-        elif i >= 3:
-            weights = np.linalg.lstsq(free[:, 3:].T, unit[3:], rcond=None)[0]
+        elif i >= 3 and len(found) < len(free):
+            weights = least_squares(free[:, 3:].T, unit[3:])
             whole = free.T @ weights
             point = np.cross(unit[3:], whole[:3])
             if np.linalg.norm(np.concatenate([np.cross(point, unit[3:]), unit[3:]]) - whole) < _SAME:
@@ -156,12 +160,12 @@ def rate(jac: np.ndarray, mass: np.ndarray) -> float:
 def holding(mass: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Return M Z (Z' M Z)^-1 Z' M for modes Z (nv, k): a stiffness that leaves all other modes as they are."""
     mz = mass @ z
-    return mz @ np.linalg.solve(z.T @ mz, mz.T)
+    return mz @ solve(z.T @ mz, mz.T)
 
 
 def without_modes(step: np.ndarray, mass: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Return a tangent step (nv,) without its part along modes Z, orthogonal in the mass."""
-    return step - z @ np.linalg.solve(z.T @ mass @ z, z.T @ (mass @ step))
+    return step - z @ solve(z.T @ mass @ z, z.T @ (mass @ step))
 
 
 def full_turns(problem: Any, x: np.ndarray, values: Values) -> np.ndarray:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mjcont.numerics.arclength import dips, pairs_may_turn_twice
+import mjcont as mc
+from mjcont.numerics.arclength import falls_between, far_below, first_point, pairs_may_turn_twice
 from mjcont.numerics.hermite import combine, hermite, hermite_each, lagrange, lagrange_each, mixed
+from mjcont.numerics.settings import Settings
+from mjcont.numerics.system import Free, System
 
 NODES = np.array([[0.0, 0.3, -0.2, 0.7], [0.1, -0.4, 0.25, 0.9]])
 AT = np.array([0.15, 0.6])
@@ -57,9 +60,20 @@ def test_a_function_that_turns_once_is_no_case_of_two():
 
 
 @pytest.mark.parametrize(
-    ("slopes", "expected"),
-    [([1.0, 0.01, 1.0], True), ([-1.0, -0.01, -1.0], True), ([1.0, 0.5, 1.0], False), ([1.0, 0.01, -1.0], False),
-     ([1.0, 0.01, 0.001], False), ([1.0, 0.9], False)],
+    ("slopes", "expected"), [([1.0, 0.01], True), ([-0.01, -1.0], True), ([1.0, 0.5], False), ([1.0, -0.01], False)]
 )
-def test_a_slope_that_dips_far_below_its_neighbours_is_seen(slopes, expected):
-    assert dips(np.array(slopes)).any() == expected
+def test_a_slope_far_below_its_neighbour_is_seen(slopes, expected):
+    assert far_below(np.array(slopes)).tolist() == [expected]
+
+
+@pytest.mark.parametrize(("at", "falls"), [(0.001, True), (-0.001, False)])
+def test_the_curve_itself_tells_whether_a_small_slope_falls_further(at, falls):
+    """p = x^3 / 3 + 1e-8 x has its least slope at x = 0: between -0.3 and 0.001, and not between -0.3 and -0.001."""
+    cubic = mc.VectorField(lambda u, p: [u[0] ** 3 / 3.0 + 1e-8 * u[0] - p["p"]], [0.0], {"p": 0.0})
+    system, settings = System(cubic, cubic.values(), [Free("p", -1.0, 1.0)]), Settings()
+    old, new = (
+        first_point(system, np.array([x]), np.array([0.5 * (x**3 / 3.0 + 1e-8 * x)]), 1.0, settings) for x in (-0.3, at)
+    )
+    new.s = 0.3
+    assert far_below(np.array([old.tangent[1], new.tangent[1]])).tolist() == [True]
+    assert falls_between(system, old, new) == falls

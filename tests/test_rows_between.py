@@ -12,7 +12,7 @@ from test_long_steps import branch_of, column, scaled
 import mjcont as mc
 from mjcont.collect import ordered_rows, run_directions
 from mjcont.curverows import curve_rows
-from mjcont.numerics.between import _inverses
+from mjcont.numerics.algebra import inverses
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Free, System
 from mjcont.walkers import equilibrium_walker
@@ -114,7 +114,7 @@ def test_a_chord_that_is_too_small_is_refused(chord):
 
 def test_a_singular_matrix_costs_its_own_row_only():
     matrices = np.array([np.eye(3), np.zeros((3, 3)), 2.0 * np.eye(3)])
-    found = _inverses(matrices)
+    found = inverses(matrices)
     assert np.isnan(found[1]).all()
     assert found[0] == pytest.approx(np.eye(3))
     assert found[2] == pytest.approx(0.5 * np.eye(3))

@@ -29,9 +29,9 @@ _GROWTH = 2.0
 # a parameter that moves by less along the tangent has no direction: the start is a fold, and noise would decide
 _AT_FOLD = 1e-5
 _PAST = 4
-# part of the smaller of its slopes at two points to which a function's slope may fall between them, where it is not far
-# below the larger one
-_DIP, _FAR_BELOW = 0.7, 0.1
+# part of the smaller of its slopes at two points to which a function's slope may fall between them, where it is not
+# farther below the larger one than this; distance at which the curve is asked how it turns
+_DIP, _FAR_BELOW, _PROBE = 0.7, 0.1, 1e-3
 # points nearer to each other than this part of a step, or this far, are a cluster
 _CLUSTER, _NOISY = 0.2, 1e-5
 # how far behind a start the points lie from which the other direction is predicted
@@ -232,34 +232,56 @@ def _slope(system: System, old: CurvePoint, new: CurvePoint, index: int) -> tupl
 def may_turn_twice(system: System, old: CurvePoint, new: CurvePoint, index: int) -> bool:
     """Whether y[index] could have two extrema between points at which it moves the same way.
 
-    Judged on the cubic through both points with their tangents, whose slope is to have no minimum far below those at
-    both points (none at all where one is far below the other), and on the point before: the slope at `old` is not to
-    be far below those on both sides.
+    Where its slopes at both points are of a size, the cubic through both with their tangents decides: its slope is to
+    have no minimum far below them. Where one is far below the other the cubic errs by more than that slope, and the
+    curve itself is asked whether its slope falls further from there.
     """
     i = system.n + index
-    a, b = float(old.tangent[i]), float(new.tangent[i])
-    if a * b <= 0 or new.s <= old.s:
+    slopes = np.array([old.tangent[i], new.tangent[i]])
+    if new.s <= old.s:
         return False
-    slopes = [float(old.past[0].tangent[i]), a, b] if old.past else [a, b]
+    if far_below(slopes)[0]:
+        return falls_between(system, old, new, index)
     values = np.array([0.0, float(system.difference(new.x, new.y, old.x, old.y)[i])])
-    twice = pairs_may_turn_twice(np.array([a, b]), values, np.array([old.s, new.s]))
-    return bool(twice[0] or dips(np.array(slopes)).any())
+    return bool(pairs_may_turn_twice(slopes, values, np.array([old.s, new.s]))[0])
+
+
+def far_below(slopes: Array) -> Array:
+    """Return for each pair of successive slopes whether they have one sign and one is far below the other."""
+    size = np.abs(slopes)
+    small, large = np.minimum(size[:-1], size[1:]), np.maximum(size[:-1], size[1:])
+    return (slopes[1:] * slopes[:-1] > 0.0) & (small < _FAR_BELOW * large)
 
 
 def pairs_may_turn_twice(slopes: Array, values: Array, s: Array) -> Array:
-    """Return `may_turn_twice` for pairs of successive points of a function with slopes and values at arclengths s."""
+    """Return for pairs of successive points of a function, its slopes and values at arclengths s, `may_turn_twice`.
+
+    Pairs with one slope far below the other are left to `falls_between`.
+    """
     a, b, mean = slopes[:-1], slopes[1:], np.diff(values) / np.diff(s)
     p, q = 3.0 * mean - 2.0 * a - b, 3.0 * (a + b - 2.0 * mean)
     t = -p / np.where(q != 0.0, q, np.inf)
-    small, large = np.minimum(np.abs(a), np.abs(b)), np.maximum(np.abs(a), np.abs(b))
-    floor = np.where(small < _FAR_BELOW * large, 1.0, _DIP) * small
-    return (a * b > 0.0) & (t > 0.0) & (t < 1.0) & ((a + p * t) * np.sign(a) < floor)
+    floor = _DIP * np.minimum(np.abs(a), np.abs(b))
+    decided = (a * b > 0.0) & ~far_below(slopes)
+    return decided & (t > 0.0) & (t < 1.0) & ((a + p * t) * np.sign(a) < floor)
 
 
-def dips(slopes: Array) -> Array:
-    """Return for each slope but the first and the last whether it is far below those on both sides."""
-    size, same = np.abs(slopes), slopes[1:] * slopes[:-1] > 0.0
-    return same[1:] & same[:-1] & (size[1:-1] < _FAR_BELOW * np.minimum(size[:-2], size[2:]))
+def falls_between(system: System, old: CurvePoint, new: CurvePoint, index: int = 0) -> bool:
+    """Whether the slope of y[index], far smaller at one of two points, falls further from there to the other."""
+    i = system.n + index
+    (low, way) = (old, 1.0) if abs(old.tangent[i]) < abs(new.tangent[i]) else (new, -1.0)
+    return way * _turning_rate(system, low)[i] * low.tangent[i] < 0.0
+
+
+def _turning_rate(system: System, point: CurvePoint) -> Array:
+    """Return the derivative of the tangent along the curve, (n + k,): from G_zz(t, t) by differences."""
+    if "turning rate" not in point.extra:
+        ahead, here, behind = (
+            system.local(*system.move(point.x, point.y, h * point.tangent)).f for h in (_PROBE, 0.0, -_PROBE)
+        )
+        bent = np.append((ahead - 2.0 * here + behind) / _PROBE**2, 0.0)
+        point.extra["turning rate"] = -Factored(with_row(point.jac, point.tangent)).solve(bent)
+    return point.extra["turning rate"]
 
 
 def turning_fraction(system: System, old: CurvePoint, new: CurvePoint, index: int) -> float:

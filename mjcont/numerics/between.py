@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mjcont.numerics.algebra import inverses
 from mjcont.numerics.arclength import CurvePoint
 from mjcont.numerics.hermite import arc, lagrange_each, mixed
 from mjcont.numerics.problem import Array
@@ -166,20 +167,9 @@ def _settled(system: System, nodes: _Nodes, windows: Array, after: Array, fracti
     states, coordinates = system.move_each(nodes.states[after], nodes.coordinates[after], steps)
     matrix = np.empty((len(after), n + 1, n + 1))
     matrix[:, n], matrix[:, :n] = nodes.tangents[after], mixed(weights, nodes.jacs, windows)
-    inverse = _inverses(matrix)[:, :, :n]
+    inverse = inverses(matrix)[:, :, :n]
     errors, kept = _corrected(system, states, coordinates, inverse, equation_sizes(matrix[:, :n]), _FIRST * gaps)
     return Between(after[kept], fraction[kept], states[kept], coordinates[kept], errors[kept])
-
-
-def _inverses(matrices: Array) -> Array:
-    """Return the inverses of matrices (m, k, k), NaN for singular ones."""
-    try:
-        return np.linalg.inv(matrices)
-    except np.linalg.LinAlgError:
-        singular = np.linalg.det(matrices) == 0.0
-        found = np.linalg.inv(np.where(singular[:, None, None], np.eye(matrices.shape[1]), matrices))
-        found[singular] = np.nan
-        return found
 
 
 def _corrected(

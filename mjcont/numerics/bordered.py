@@ -9,6 +9,7 @@ from scipy import sparse
 from scipy.linalg import lapack
 from scipy.sparse.linalg import splu
 
+from mjcont.numerics.algebra import singular
 from mjcont.numerics.problem import Array
 
 _TINY = 1e-300
@@ -29,19 +30,17 @@ def row_scale(matrix: Any, guard: float = 1e-8) -> Array:
 
 
 class Factored:
-    """LU factors of a square matrix, rows equilibrated."""
+    """LU factors of a square matrix, rows equilibrated: a vanishing pivot is replaced by a tiny one."""
 
     def __init__(self, matrix: Any) -> None:
         self._rows = row_scale(matrix)
         self._sparse = sparse.issparse(matrix)
         if self._sparse:
             scaled = sparse.csc_matrix(sparse.diags(self._rows) @ matrix)
-            try:
-                self._lu = splu(scaled)
-            except RuntimeError:
+            self._lu, self._singular = _sparse_factors(scaled), False
+            if self._lu is None:
                 shift = 1e-14 * sparse.identity(scaled.shape[0], format="csc")
-                self._lu = splu(sparse.csc_matrix(scaled + shift))
-            self._singular = False
+                self._lu, self._singular = _sparse_factors(sparse.csc_matrix(scaled + shift)), True
         else:
             self._lu, self._pivots, info = lapack.dgetrf(self._rows[:, None] * matrix)
             self._singular = info > 0
@@ -64,20 +63,32 @@ class Factored:
         """Return the solution of A z = rhs."""
         scaled = self._rows * rhs if rhs.ndim == 1 else self._rows[:, None] * rhs
         if self._sparse:
-            return self._lu.solve(scaled)
+            return self._solve_sparse(scaled)
         return lapack.dgetrs(self._lu, self._pivots, scaled)[0]
 
     def last_column(self) -> Array:
         """Return the last column of the inverse, up to a positive factor: z with A z = e, e the last unit vector."""
         rhs = np.zeros(len(self._rows))
         rhs[-1] = 1.0
-        return self._lu.solve(rhs) if self._sparse else lapack.dgetrs(self._lu, self._pivots, rhs)[0]
+        return self._solve_sparse(rhs) if self._sparse else lapack.dgetrs(self._lu, self._pivots, rhs)[0]
 
     def solve_transposed(self, rhs: Array) -> Array:
         """Return the solution of A^T z = rhs."""
         if self._sparse:
-            return self._rows * self._lu.solve(rhs, trans="T")
+            return self._rows * self._solve_sparse(rhs, trans="T")
         return self._rows * lapack.dgetrs(self._lu, self._pivots, rhs, trans=1)[0]
+
+    def _solve_sparse(self, rhs: Array, trans: str = "N") -> Array:
+        """Return the solution with the sparse factors; NaN where there are none."""
+        return np.full(rhs.shape, np.nan) if self._lu is None else self._lu.solve(rhs, trans=trans)
+
+
+def _sparse_factors(matrix: Any) -> Any:
+    """Return SuperLU's factors of a sparse matrix, None where a pivot vanishes or is no number."""
+    try:
+        return splu(matrix)
+    except RuntimeError:
+        return None
 
 
 def _parity(permutation: Array) -> float:
@@ -118,7 +129,7 @@ def null_vectors(matrix: Any, count: int = 1) -> tuple[Array, Array]:
     square matrices use inverse iteration on A A^T from a fixed start.
     """
     if not sparse.issparse(matrix):
-        u, _, vt = np.linalg.svd(matrix)
+        u, _, vt = singular(matrix)
         m, n = matrix.shape
         return vt[n - count - (n - m) :].T[:, ::-1].copy(), u[:, m - count :][:, ::-1].copy()
     n = matrix.shape[0]

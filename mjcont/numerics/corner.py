@@ -82,7 +82,7 @@ class CornerDetector:
         before, after = loaded_at(self.system, old), loaded_at(self.system, new)
         while new.s - old.s > _SHARP:
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
-            if isinstance(middle, str):
+            if isinstance(middle, str) or not old.s < middle.s < new.s:
                 break
             old, new = (middle, new) if loaded_at(self.system, middle) == before else (old, middle)
         return [Located("CO", new, new.s - old.s, True, {}, describe(before, after))]

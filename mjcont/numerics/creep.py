@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from mjcont.numerics.algebra import eigenvectors, solve
 from mjcont.numerics.problem import Array, Problem, Values
 from mjcont.numerics.system import Local
 
@@ -39,9 +40,9 @@ def rates(local: Local) -> tuple[Array, Array, Array]:
     jac: Any = local.raw_jac
     jac = jac.toarray() if sparse.issparse(jac) else jac
     mass = None if not local.problem.second_order else local.pencil.mass
-    a, g = (jac, local.f) if mass is None else (np.linalg.solve(mass, jac), np.linalg.solve(mass, local.f))
-    values, vectors = np.linalg.eig(a)
-    return values, vectors, np.linalg.solve(vectors, g.astype(complex))
+    a, g = (jac, local.f) if mass is None else (solve(mass, jac), solve(mass, local.f))
+    values, vectors = eigenvectors(a)
+    return values, vectors, solve(vectors, g.astype(complex))
 
 
 def _phi(values: Array, dt: float) -> Array:

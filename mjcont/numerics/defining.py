@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from mjcont.numerics.algebra import singular
 from mjcont.numerics.bordered import Factored, border, null_vectors, row_scale
 from mjcont.numerics.differences import bilinear_gradient, directional, second_form
 from mjcont.numerics.problem import Array
@@ -174,7 +175,7 @@ class Hopf:
         n, k = local.problem.n, square / self.inner**2
         v, w = null_vectors(self._block(local, k), 2)
         if k >= 0:
-            v, w = v @ np.linalg.svd(v[:n])[2][0], w @ np.linalg.svd(w[n:])[2][0]
+            v, w = v @ singular(v[:n])[2][0], w @ singular(w[n:])[2][0]
         else:  # a vector with parts along both real eigenvectors
             v, w = v @ _GENERIC, w @ _GENERIC
         sign = -1.0 if k >= 0 else 1.0

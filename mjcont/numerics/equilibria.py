@@ -57,8 +57,8 @@ class BranchPointDetector:
     settings: Settings
 
     def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
-        """Whether the orientation changes."""
-        return old.sign * new.sign < 0
+        """Whether the orientation changes; it is zero on a branch point, which belongs to the steps on both sides."""
+        return old.sign != new.sign
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
         near = approximate(self.system, old, new, 0.5, self.settings)
@@ -88,12 +88,12 @@ class BranchPointDetector:
         Raises
         ------
         Retry
-            If the orientation changes without a branch point.
+            If the orientation changes without a branch point. Where it vanishes a matrix is singular by chance.
         """
         result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
-        if result is None:
+        if result is None and old.sign * new.sign < 0:
             raise Retry("the orientation changes without a branch point: another branch is near")
-        return [result]
+        return [result] if result is not None else []
 
 
 def _balanced(system: System, fold: Fold, c: Corrected) -> Corrected:
@@ -198,7 +198,7 @@ class HopfDetector:
             return Located("NS", point, c.step, True, {"square": square})
         omega = float(np.sqrt(square))
         l1 = normalform.first_lyapunov(self.system.problem, c.x, c.local.values, omega)
-        kind = "degenerate" if abs(l1) < _DEGENERATE else "supercritical" if l1 < 0 else "subcritical"
+        kind = "degenerate" if not abs(l1) >= _DEGENERATE else "supercritical" if l1 < 0 else "subcritical"
         return Located("HB", point, c.step, True, {"omega": omega, "l1": l1, "type": kind})
 
     @staticmethod
@@ -228,7 +228,6 @@ class HopfDetector:
             return []
         return [result]
 
-
     @staticmethod
     def _undamped(point: CurvePoint) -> bool:
         """Whether a complex pair lies on the axis as far as can be told: no Hopf condition singles it out."""
@@ -239,7 +238,7 @@ class HopfDetector:
         """Return where undamped pairs meet and leave the axis, bracketed."""
         while new.s - old.s > _BRACKET:
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
-            if isinstance(middle, str):
+            if isinstance(middle, str) or not old.s < middle.s < new.s:
                 break
             old, new = (old, middle) if self._differs(old, middle) else (middle, new)
         omega = _frequency(critical_pair(spectrum_of(old)) or (0.0, 0.0))
@@ -280,7 +279,7 @@ class MultipleDetector:
         count = (self._unstable(new) or 0) - before
         while new.s - old.s > _BRACKET:
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
-            if isinstance(middle, str):
+            if isinstance(middle, str) or not old.s < middle.s < new.s:
                 break
             old, new = (middle, new) if self._unstable(middle) == before else (old, middle)
         note = f"{abs(count)} eigenvalues of K vanish together: a point of higher multiplicity, bracketed only"

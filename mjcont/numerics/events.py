@@ -7,6 +7,7 @@ within its bracket. A sign change with no point behind it (a pole, or another br
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
@@ -84,10 +85,7 @@ def bisect(
 ) -> Located | None:
     """Return what `settle` finds in a bracket, halving the bracket while it finds nothing; None if it never does."""
     for _ in range(_MOST_BISECTIONS):
-        try:
-            result = settle(old, new)
-        except np.linalg.LinAlgError:  # a degenerate defining system: not a point of this kind
-            result = None
+        result = settle(old, new)
         if result is not None:
             return result
         length = new.s - old.s
@@ -110,6 +108,8 @@ def within(system: System, old: CurvePoint, new: CurvePoint, c: Corrected) -> fl
     chord = system.difference(new.x, new.y, old.x, old.y)
     step = system.difference(x, y, old.x, old.y)
     size = float(np.linalg.norm(chord))
+    if not size > 0.0:
+        return None
     along = float(step @ chord) / size
     aside = float(np.linalg.norm(step - along * chord / size))
     slack = _OUTSIDE * length + 1e-9 + 10.0 * min(c.step, 1e-6)
@@ -128,7 +128,13 @@ def between(system: System, old: CurvePoint, new: CurvePoint, fraction: float) -
     step = h01 * chord + h * (h10 * old.tangent + h11 * new.tangent)
     tangent = (1.0 - t) * old.tangent + t * new.tangent
     x, y = system.move(old.x, old.y, step)
-    return x, y, tangent / np.linalg.norm(tangent)
+    return x, y, _unit(tangent, new.tangent)
+
+
+def _unit(vector: Array, otherwise: Array) -> Array:
+    """Return a vector at length one, or another where it vanishes: halfway between opposite tangents."""
+    size = np.linalg.norm(vector)
+    return vector / size if size > 1e-8 else otherwise
 
 
 def approximate(system: System, old: CurvePoint, new: CurvePoint, fraction: float, settings: Settings) -> Corrected:
@@ -145,16 +151,14 @@ def guessed(system: System, old: CurvePoint, new: CurvePoint, fraction: float) -
 
 def zero_fraction(a: float, b: float) -> float:
     """Return where a linear function with values a, b at 0, 1 vanishes, kept off the ends."""
-    if a == b:
-        return 0.5
-    return min(max(a / (a - b), 0.02), 0.98)
+    fraction = a / (a - b) if a != b else math.nan
+    return min(max(fraction, 0.02), 0.98) if math.isfinite(fraction) else 0.5
 
 
 def point_at(system: System, old: CurvePoint, new: CurvePoint, c: Corrected, s: float) -> CurvePoint:
     """Return a curve point for a located solution; its tangent is interpolated (at a branch point none is unique)."""
     fraction = (s - old.s) / (new.s - old.s) if new.s > old.s else 0.5
-    tangent = (1.0 - fraction) * old.tangent + fraction * new.tangent
-    tangent /= np.linalg.norm(tangent)
+    tangent = _unit((1.0 - fraction) * old.tangent + fraction * new.tangent, new.tangent)
     return CurvePoint(c.x, c.y[: system.k], tangent, old.sign, c.local, new.jac, s, c.error)
 
 
@@ -183,7 +187,7 @@ class ZeroDetector:
         if self.differs is not None:
             return self.differs(old, new)
         a, b = self._value(old), self._value(new)
-        return a * b < 0 or (b == 0.0 and a != 0.0)
+        return a * b < 0 or (a == 0.0) != (b == 0.0)  # a point on a zero belongs to the steps on both sides
 
     def _value(self, point: CurvePoint) -> float:
         key = f"test {self.kind} {self.name}"

@@ -15,7 +15,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mjcont.numerics.arclength import CurvePoint, Earlier, dips, pairs_may_turn_twice
+from mjcont.numerics.algebra import inverses
+from mjcont.numerics.arclength import CurvePoint, Earlier, falls_between, far_below, pairs_may_turn_twice
 from mjcont.numerics.bordered import Factored
 from mjcont.numerics.hermite import hermite_each, mixed
 from mjcont.numerics.newton import LARGEST_ERROR, length, with_row
@@ -110,10 +111,7 @@ def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool
         first, rows.jacs = _linearized(system, rows.states, rows.coordinates)
     matrix = np.empty((len(rows.at), n + 1, n + 1))
     matrix[:, :n], matrix[:, n] = rows.jacs, rows.tangents
-    try:
-        inverse = np.linalg.inv(matrix)
-    except np.linalg.LinAlgError:
-        return ["the curve has no single tangent within the step"]
+    inverse = inverses(matrix)
     residuals, sizes = _corrected(system, rows, [g.count for g in gaps], inverse, first, exact)
     errors = np.max(np.abs(residuals) / equation_sizes(rows.jacs), axis=1)
     columns = inverse[:, :, -1]
@@ -293,7 +291,7 @@ def _settled_changes(
     own = unsure == 0.0
     while True:
         changes, twice = _changes(along, signs), pairs_may_turn_twice(along, values, s)
-        pairs = changes | twice
+        pairs = changes | twice | far_below(along)
         asked = np.abs(along) < unsure
         asked[1:] |= pairs
         asked[:-1] |= pairs
@@ -304,7 +302,8 @@ def _settled_changes(
             _refine(system, points[i])
             along[i], signs[i] = points[i].tangent[system.n], points[i].sign
         own |= asked
-    twice[1:] |= dips(along)
+    for i in np.flatnonzero(far_below(along)).tolist():
+        twice[i] = falls_between(system, points[i], points[i + 1])
     return changes, twice
 
 

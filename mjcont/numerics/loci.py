@@ -122,10 +122,10 @@ def _pair_detector(kind: str, system: System, settings: Settings, count: Callabl
             return None
         omega, local = float(np.sqrt(square)), c.local
         if kind == "ZH":
-            return codim2.zero_hopf_coefficients(local.problem, c.x, local.values, omega), ""
+            return codim2.zero_hopf_coefficients(local.problem, c.x, local.values, omega)
         own = system.conditions[0].square(c.y[system.k - 1 : system.k])  # type: ignore[attr-defined]
         first = float(np.sqrt(own))
-        return codim2.double_hopf_coefficients(local.problem, c.x, local.values, first, omega), ""
+        return codim2.double_hopf_coefficients(local.problem, c.x, local.values, first, omega)
 
     return ZeroDetector(kind, system, test, solve_with, finish, settings, "", changed)
 
@@ -171,7 +171,7 @@ def hopf_locus_detectors(system: System, hopf: Hopf, settings: Settings, *, lyap
         square = hopf.square(c.y[last : last + 1])
         if square <= 1e-6 * hopf.rate**2:
             return None
-        return codim2.zero_hopf_coefficients(c.local.problem, c.x, c.local.values, float(np.sqrt(square))), ""
+        return codim2.zero_hopf_coefficients(c.local.problem, c.x, c.local.values, float(np.sqrt(square)))
 
     found: list[Detector] = [
         ZeroDetector("BT", system, kappa, solve_double_zero, finish_double_zero, settings),

@@ -68,8 +68,10 @@ class LongSteps:
             self._interpolated *= _LONGER_INTERPOLATED
             return fill(self.system, fit, self.settings, exact=True)
         found = fill(self.system, fit, self.settings, exact=False)
-        self._interpolated = min(self._limit(g, inside) for g, inside in zip(fit, found, strict=False) if g.count)
-        again = isinstance(found[0], str) and self._exact
+        # a step without points inside tells nothing of interpolated matrices, even where it is refused
+        limits = [self._limit(g, inside) for g, inside in zip(fit, found, strict=False) if g.count]
+        self._interpolated = min(limits, default=self._interpolated)
+        again = isinstance(found[0], str) and fit[0].count > 0 and self._exact
         return fill(self.system, fit[:1], self.settings, exact=True) if again else found
 
     @staticmethod

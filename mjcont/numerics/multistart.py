@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from mjcont.numerics.algebra import singular
 from mjcont.numerics.differences import SECOND_ORDER, jacobian_steps
 from mjcont.numerics.problem import Array, Problem, Values
 
@@ -127,7 +128,7 @@ def spectral_step(f: Array, jac: Array) -> tuple[Array, Array, Array]:
     finite = np.all(np.isfinite(f), axis=1) & np.all(np.isfinite(jac), axis=(1, 2))
     jac = np.where(finite[:, None, None], jac, 0.0)
     f, jac = _rows_scaled(f, jac, _weights(jac))
-    u, sigma, vt = np.linalg.svd(jac)
+    u, sigma, vt = singular(jac)
     step = _damped(u, sigma, vt, f, np.zeros(len(f)))
     return step, sigma, np.sign(np.linalg.det(u) * np.linalg.det(vt))
 
@@ -158,7 +159,7 @@ def levenberg_marquardt(many: Many, states: Array, *, most: int = 80, tol: float
         if not len(active):
             break
         fs, js = _rows_scaled(f, jac, weights[active])
-        u, sigma, vt = np.linalg.svd(js)
+        u, sigma, vt = singular(js)
         if not sigma[:, 0].any():
             break
         newton = _damped(u, sigma, vt, fs, np.zeros(len(fs)))

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from mjcont.numerics.algebra import least_squares
+from mjcont.numerics.algebra import solve as solve_dense
 from mjcont.numerics.bordered import Factored, border
 from mjcont.numerics.problem import Array, Problem, Values
 from mjcont.numerics.settings import Settings
@@ -260,10 +262,8 @@ def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array,
 def _solve(matrix: Any, rhs: Array) -> Array:
     if sparse.issparse(matrix):
         return Factored(matrix).solve(rhs)
-    try:
-        return np.linalg.solve(matrix, rhs)
-    except np.linalg.LinAlgError:
-        return np.linalg.lstsq(matrix, rhs, rcond=None)[0]
+    found = solve_dense(matrix, rhs)
+    return found if np.isfinite(found).all() else least_squares(matrix, rhs)
 
 
 def _mass_like(local: Local) -> Any:

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from mjcont.numerics.algebra import least_squares, singular, solve
 from mjcont.numerics.differences import FOURTH_ORDER, combine, jacobian_from_rows, jacobian_steps, second_form
 from mjcont.numerics.problem import Array, Problem, Values
 from mjcont.numerics.system import Local
@@ -48,7 +49,7 @@ def _bordered_solve(jac: Any, w: Array, v: Array, rhs: Array) -> Array:
     """Return h with J h = rhs up to the left null direction and v . h = 0."""
     matrix = jac.toarray() if sparse.issparse(jac) else jac
     full = np.block([[matrix, w[:, None]], [v[None], np.zeros((1, 1))]])
-    return np.linalg.lstsq(full, np.append(rhs, 0.0), rcond=None)[0][:-1]
+    return least_squares(full, np.append(rhs, 0.0))[:-1]
 
 
 class FirstOrder:
@@ -64,8 +65,12 @@ class FirstOrder:
         rows = self._f(jacobian_steps(self.scale, FOURTH_ORDER))
         return jacobian_from_rows(rows, self.scale, FOURTH_ORDER)
 
+    def size(self, v: Array) -> float:
+        """Return the largest component of a vector in units of its coordinate's scale."""
+        return float(np.max(np.abs(v) / self.scale))
+
     def _along(self, v: Array, order: int) -> Array:
-        length = float(np.max(np.abs(v) / self.scale))
+        length = self.size(v)
         if length == 0.0:
             return np.zeros(len(v))
         step = {2: 1e-2, 3: 2e-2}[order]
@@ -114,15 +119,15 @@ def first_lyapunov(problem: Problem, x: Array, values: Values, omega: float) -> 
     c += form.third(qi, qr) + 1j * form.third(qr, qi)
     b = form.second(q, q.conj()).real
     identity = np.eye(len(jac))
-    h11 = np.linalg.solve(jac, b)
-    h20 = np.linalg.solve(2j * omega * identity - jac, form.second(q, q))
+    h11 = solve(jac, b)
+    h20 = solve(2j * omega * identity - jac, form.second(q, q))
     total = c - 2.0 * form.second(q, h11) + form.second(q.conj(), h20)
     return float(np.real(np.vdot(p, total)) / (2.0 * omega))
 
 
 def eigenvectors(jac: Array, omega: float) -> tuple[Array, Array]:
     """Return q and p with J q = i omega q, J' p = -i omega p, |q| = 1 and <p, q> = 1."""
-    u, _, vh = np.linalg.svd(jac - 1j * omega * np.eye(len(jac)))
+    u, _, vh = singular(jac - 1j * omega * np.eye(len(jac)))
     q, p = vh[-1].conj(), u[:, -1]
     return q, p / np.vdot(q, p)
 
@@ -135,12 +140,12 @@ def double_zero_coefficients(problem: Problem, x: Array, values: Values) -> dict
     """
     form = FirstOrder(problem, x, values)
     jac = form.jacobian()
-    u, _, vt = np.linalg.svd(jac)
+    u, _, vt = singular(jac)
     q0, p1 = vt[-1], u[:, -1]
     full = np.block([[jac, p1[:, None]], [q0[None], np.zeros((1, 1))]])
-    q1 = np.linalg.solve(full, np.append(q0, 0.0))[:-1]
+    q1 = solve(full, np.append(q0, 0.0))[:-1]
     p1 = p1 / (p1 @ q1)
-    p0 = np.linalg.solve(full.T, np.append(p1, 0.0))[:-1]
+    p0 = solve(full.T, np.append(p1, 0.0))[:-1]
     p0 = p0 - (p0 @ q1) * p1
     b00, b01 = form.second(q0, q0), form.second(q0, q1)
     return {"a": float(0.5 * p1 @ b00), "b": float(p0 @ b00 + p1 @ b01)}
@@ -149,7 +154,7 @@ def double_zero_coefficients(problem: Problem, x: Array, values: Values) -> dict
 def pitchfork_coefficient(local: Local, w: Array) -> float:
     """Return the cubic coefficient c of x' = b mu x + c x^3: supercritical for c < 0."""
     jac = local.raw_jac.toarray() if sparse.issparse(local.raw_jac) else local.raw_jac
-    v = np.linalg.svd(jac)[2][-1]
+    v = singular(jac)[2][-1]
     return cusp_coefficient(local, v, w)
 
 

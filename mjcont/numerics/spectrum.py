@@ -14,8 +14,9 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import ArpackNoConvergence, eigs, splu
+from scipy.sparse.linalg import eigs, splu
 
+from mjcont.numerics.algebra import cholesky, eigenvalues, inverses, singular, solve, symmetric_eigenvalues
 from mjcont.numerics.differences import SECOND_ORDER
 from mjcont.numerics.problem import Array, Pencil
 
@@ -24,7 +25,8 @@ _SYMMETRY_NOISE = 1e-8
 _DIFFERENCE_NOISE = 1e-10
 _ROUNDING = 1e-13
 _EIGENSOLVER = 1e-15
-_RIGID = 1e-7
+# eigenvalues nearest the axis that are sought of a sparse matrix, and its size up to which all are
+_NEAREST, _SMALL = 6, 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,13 +73,15 @@ def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spec
     if sparse.issparse(pencil.stiffness):
         return _sparse_spectrum(pencil.stiffness)
     if pencil.mass is None or pencil.damping is None:
-        ev = np.linalg.eigvals(-pencil.stiffness)
+        ev = eigenvalues(-pencil.stiffness)
         size = np.abs(pencil.stiffness).max()
         return _classify(ev, 1e-11 * size + 1e-12 * np.abs(ev), conservative=False)
     k, c = pencil.stiffness, pencil.damping
-    if symmetric(k) and symmetric(c) and np.linalg.eigvalsh(0.5 * (c + c.T))[0] >= -_ROUNDING * np.abs(c).max():
+    if symmetric(k) and symmetric(c) and symmetric_eigenvalues(0.5 * (c + c.T))[0] >= -_ROUNDING * np.abs(c).max():
         return _conservative(pencil.mass[None], c[None], 0.5 * (k + k.T)[None])[0]
     ev = quadratic_eigenvalues(pencil.mass, c, k)
+    if np.isnan(ev).any():
+        return _undefined(len(ev))
     noise, zero = _noise_bound(pencil.mass, k, ev)
     close = np.flatnonzero(((np.abs(ev.real) <= noise) | zero) & (ev.imag >= 0))
     if scatter is not None and len(close):
@@ -97,7 +101,7 @@ def _noise_bound(mass: Array, stiffness: Array, ev: Array) -> tuple[Array, Array
     """
     lightest = float(np.abs(np.diag(mass)).min())
     rate = np.maximum(np.abs(ev), max(np.sqrt(np.median(np.abs(ev))), 1e-300))
-    square = _DIFFERENCE_NOISE * np.abs(stiffness).max() / lightest
+    square = _DIFFERENCE_NOISE * np.abs(stiffness).max() / max(lightest, 1e-300)
     return np.minimum(square / rate, 1e-2 * np.abs(ev) + 1e-12), np.abs(ev) ** 2 <= square
 
 
@@ -107,7 +111,7 @@ def _measured_noise(mass: Array, damping: Array, stiffness: Array, s: complex, s
     A column of K is a difference over the step of the stencil, so its error is the scatter over that step; the
     eigenvalue moves by p . dK q / p . P'(s) q (first-order perturbation); the eigensolver adds its backward error.
     """
-    u, _, vh = np.linalg.svd(s**2 * mass + s * damping + stiffness)
+    u, _, vh = singular(s**2 * mass + s * damping + stiffness)
     p, q = u[:, -1], vh[-1].conj()
     slope = abs(np.vdot(p, (2.0 * s * mass + damping) @ q))
     spread = float(np.std(samples @ p.conj()))
@@ -124,16 +128,16 @@ def symmetric(matrix: Array) -> bool:
 def quadratic_eigenvalues(mass: Array, damping: Array, stiffness: Array) -> Array:
     """Return the 2 n eigenvalues of s^2 M + s C + K, scaled by the frequency of the largest stiffness.
 
-    The matrices are (n, n), or stacks (N, n, n) that give (N, 2 n).
+    The matrices are (n, n), or stacks (N, n, n) that give (N, 2 n). NaN where the mass is singular.
     """
     n = mass.shape[-1]
-    both = np.linalg.solve(mass, np.concatenate([stiffness, damping], axis=-1))
+    both = solve(mass, np.concatenate([stiffness, damping], axis=-1))
     k, c = both[..., :n], both[..., n:]
     rate = np.sqrt(np.maximum(np.abs(k).max(axis=(-2, -1)), 1e-300))[..., None, None]
     block = np.zeros((*mass.shape[:-2], 2 * n, 2 * n))
     block[..., :n, n:] = np.eye(n)
     block[..., n:, :n], block[..., n:, n:] = -k / rate**2, -c / rate
-    return np.linalg.eigvals(block) * rate[..., 0]
+    return eigenvalues(block) * rate[..., 0]
 
 
 def conservative_spectra(pencils: Sequence[Pencil]) -> list[Spectrum]:
@@ -148,10 +152,13 @@ def _conservative(mass: Array, damping: Array, stiffness: Array) -> list[Spectru
     every = quadratic_eigenvalues(mass, damping, stiffness).astype(complex)
     order = np.lexsort((every.imag, -every.real))
     all_values = np.take_along_axis(every, order, axis=-1)
-    lower = np.linalg.inv(np.linalg.cholesky(mass))
-    all_squares = np.linalg.eigvalsh(lower @ stiffness @ lower.transpose(0, 2, 1))
+    lower = inverses(cholesky(mass))
+    all_squares = symmetric_eigenvalues(lower @ stiffness @ lower.transpose(0, 2, 1))
     found = []
     for m, k, ev, squares in zip(mass, stiffness, all_values, all_squares, strict=True):
+        if np.isnan(squares).any() or np.isnan(ev).any():
+            found.append(_undefined(len(ev)))
+            continue
         noise = _DIFFERENCE_NOISE * np.abs(k).max() / np.diag(m).max()
         negative = int(np.count_nonzero(squares < -noise))
         rounding = _ROUNDING * float(np.abs(ev).max(initial=0.0))
@@ -162,7 +169,14 @@ def _conservative(mass: Array, damping: Array, stiffness: Array) -> list[Spectru
     return found
 
 
+def _undefined(count: int) -> Spectrum:
+    """Return the spectrum of a pencil that has none, such as one that is not finite or whose mass is singular."""
+    return Spectrum(np.full(count, complex(np.nan, np.nan)), MARGINAL, 0, np.full(count, np.inf), False)
+
+
 def _classify(ev: Array, noise: Array, *, conservative: bool) -> Spectrum:
+    if np.isnan(ev).any():
+        return _undefined(len(ev))
     order = np.lexsort((ev.imag, -ev.real))
     ev, noise = ev[order].astype(complex), noise[order]
     unstable = int(np.count_nonzero(ev.real > noise))
@@ -178,17 +192,29 @@ def _sparse_spectrum(stiffness: Any) -> Spectrum:
     jac = sparse.csc_matrix(-stiffness)
     n = jac.shape[0]
     size = abs(jac).max()
+    if not np.isfinite(size):
+        return _undefined(min(_NEAREST, n))
+    if n <= _SMALL:
+        return spectrum(Pencil(None, None, stiffness.toarray()))
     shift = 1e-3 * size / n
     start = np.cos(np.arange(n, dtype=float))
     try:
-        near = eigs(jac, k=min(6, n - 2), sigma=shift, v0=start, return_eigenvectors=False)
-    except (ArpackNoConvergence, RuntimeError):
-        near = np.zeros(0, dtype=complex)
-    result = _classify(near, 1e-12 * size + 0.0 * near.real, conservative=False)
+        near = eigs(jac, k=_NEAREST, sigma=shift, v0=start, return_eigenvectors=False)
+        result = _classify(near, 1e-12 * size + 0.0 * near.real, conservative=False)
+    except RuntimeError:  # no convergence, or exactly singular
+        result = _undefined(_NEAREST)
     if abs(jac - jac.T).max() <= _SYMMETRY_NOISE * size:
-        lu = splu(jac, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-        if np.array_equal(lu.perm_r, lu.perm_c):
-            count = int(np.count_nonzero(lu.U.diagonal() > 0))
+        count = _positive(jac)
+        if count is not None:
             state = UNSTABLE if count else result.stability if result.stability == MARGINAL else STABLE
             return Spectrum(result.eigenvalues, state, count, result.noise, True)
     return result
+
+
+def _positive(jac: Any) -> int | None:
+    """Return how many eigenvalues of a sparse symmetric matrix are positive, from its pivots; None where they fail."""
+    try:
+        lu = splu(jac, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    except RuntimeError:  # exactly singular: at a fold
+        return None
+    return int(np.count_nonzero(lu.U.diagonal() > 0)) if np.array_equal(lu.perm_r, lu.perm_c) else None

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.numerics.algebra import symmetric_eigenvalues
 from mjcont.numerics.arclength import CurvePoint
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.spectrum import (
@@ -44,7 +45,7 @@ def negative_stiffness(point: CurvePoint) -> int | None:
     if "negative" not in point.extra:
         count = None
         if getattr(point.local.problem, "passive", False) and symmetric(point.local.raw_jac):
-            count = int(np.count_nonzero(np.linalg.eigvalsh(point.local.raw_jac) > 0.0))
+            count = int(np.count_nonzero(symmetric_eigenvalues(point.local.raw_jac) > 0.0))
         point.extra["negative"] = count
     return point.extra["negative"]
 

@@ -23,6 +23,7 @@ class Status(Enum):
     AT_SPECIAL_POINT = "at special point"
     INTERRUPTED = "interrupted"
     NO_START = "no start"
+    FAILED = "failed"
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ import numpy as np
 from mjcont.numerics.arclength import CurvePoint, advance, by_contraction, land, may_turn_twice, next_step
 from mjcont.numerics.corner import NEAR, cross
 from mjcont.numerics.events import Detector, Located, Retry
+from mjcont.numerics.guard import guarded
 from mjcont.numerics.interior import Interior
 from mjcont.numerics.longsteps import LongSteps
 from mjcont.numerics.newton import length
@@ -28,6 +29,7 @@ from mjcont.numerics.system import System
 _SMALL_FOLDS = 1e-5
 # a curve that ends on the bound where it is already adds no second point there
 _SAME_POINT = 1e-9
+# special points of a kind nearer than this are one
 _SAME_LOCATED = 1e-7
 # long steps that are filled together
 _AHEAD = 6
@@ -69,8 +71,11 @@ class Walker:
     _turns: Array | None = field(default=None, init=False)
     _leaps: list[Leap] = field(default_factory=list, init=False)
 
-    def walk(self, start: CurvePoint) -> Iterator[CurvePoint | Located | End]:
-        """Yield the curve's points after `start`, special points before the point that follows them, and the end."""
+    def walk(self, start: CurvePoint, known: Sequence[Located] = ()) -> Iterator[CurvePoint | Located | End]:
+        """Yield the curve's points after `start`, special points before the point that follows them, and the end.
+
+        `known` are special points of the same curve found before, in the other direction: none is found twice.
+        """
         settings, began = self.settings, time.monotonic()
         point, h, count = start, settings.ds, 1
         steps, self._leaps = deque[Step | End](), []
@@ -80,7 +85,7 @@ class Walker:
             self.long.begin()
         for detector in self.detectors:
             detector.changed(point, point)
-        last: dict[str, Located] = {}
+        every = list(known)
         periods = self._periods(start)
         largest = settings.max_size * max(1.0, self._size(start))
         while True:
@@ -97,9 +102,9 @@ class Walker:
             passes = step.ending is None and self._may_pass(start, point, step, periods)
             for item in step.items:
                 if isinstance(item, Located):
-                    if self._known(item, last):
+                    if any(self._same(item, other, periods) for other in every):
                         continue
-                    last[item.kind] = item
+                    every.append(item)
                     yield item
                     if item.kind in self.end_at:
                         yield End(Status.AT_SPECIAL_POINT, f"the curve was to end at a point of kind {item.kind}")
@@ -127,12 +132,20 @@ class Walker:
         n = self.system.n  # positions of a free body carry a quaternion beside n coordinates: measure those alone
         return float(np.max(np.abs(point.x[:n]) / self.system.problem.state_scale))
 
-    def _known(self, special: Located, last: dict[str, Located]) -> bool:
-        """Whether a point was located just before: on both sides of a step's end, or twice in a flat stretch."""
-        if special.kind not in last or special.data.get("monitor") != last[special.kind].data.get("monitor"):
+    def _same(self, one: Located, other: Located, periods: Array) -> bool:
+        """Whether a point was located twice: from both sides of a step's end, or at both ends of a closed curve."""
+        if one.kind != other.kind or one.data.get("monitor") != other.data.get("monitor"):
             return False
-        p, q = special.point, last[special.kind].point
-        return float(np.linalg.norm(self.system.difference(p.x, p.y, q.x, q.y))) < _SAME_LOCATED
+        return length(self._less_turns(one.point, other.point, periods)[0]) < _SAME_LOCATED
+
+    def _less_turns(self, to: CurvePoint, origin: CurvePoint, periods: Array) -> tuple[Array, Array]:
+        """Return the scaled step between points less full turns, (n + k,), and how many turns these are, (n,)."""
+        step, turns = self.system.difference(to.x, to.y, origin.x, origin.y), np.zeros(self.system.n)
+        finite = np.isfinite(periods)
+        part = step[: self.system.n]
+        turns[finite] = np.round(part[finite] / periods[finite])
+        part[finite] -= turns[finite] * periods[finite]
+        return step, turns
 
     def _limit(self, point: CurvePoint, count: int, began: float) -> End | None:
         settings = self.settings
@@ -304,26 +317,21 @@ class Walker:
         assert isinstance(new, CurvePoint)
         if len(step.items) == 1:
             return True
-        to_start = self.system.difference(start.x, start.y, point.x, point.y)
-        finite = np.isfinite(periods)
-        part = to_start[: self.system.n]
-        part[finite] -= np.round(part[finite] / periods[finite]) * periods[finite]
-        return length(to_start) < 3.0 * (new.s - point.s)
+        return length(self._less_turns(start, point, periods)[0]) < 3.0 * (new.s - point.s)
 
     def _passes(self, start: CurvePoint, old: CurvePoint, new: CurvePoint, periods: Array) -> bool | None:
         """Return whether the step from old to new passes the start a full turn away; None if it does not pass it."""
         if old.s < 2.0 * (new.s - old.s) or start.tangent @ new.tangent < math.cos(2.0 * self.settings.angle_max):
             return None
         chord = self.system.difference(new.x, new.y, old.x, old.y)
-        to_start = self.system.difference(start.x, start.y, old.x, old.y)
-        finite = np.isfinite(periods)
-        turns = np.zeros(self.system.n)
-        turns[finite] = np.round(to_start[: self.system.n][finite] / periods[finite])
-        to_start[: self.system.n][finite] -= turns[finite] * periods[finite]
+        to_start, turns = self._less_turns(start, old, periods)
         size = length(chord)
+        if not size > 0.0:
+            return None
         along = float(to_start @ chord) / size
         aside = length(to_start - along * chord / size)
-        return bool(turns.any()) if 0.0 < along <= size and aside <= 0.1 * size else None
+        # a step that ends on the start but for rounding meets it, or the next one would miss it as narrowly
+        return bool(turns.any()) if 0.0 < along <= size + _SAME_LOCATED and aside <= 0.1 * size else None
 
     def _where(self, point: CurvePoint) -> str:
         free = zip(self.system.free, point.y, strict=False)
@@ -338,11 +346,16 @@ def _distinct(located: list[Located]) -> list[Located]:
     ]
 
 
-def trace(walker: Walker, start: CurvePoint, progress: Callable[[CurvePoint | Located | End], None] | None) -> Trace:
-    """Collect a walk; an interrupt (Ctrl-C) ends it and keeps what there is."""
+def trace(
+    walker: Walker,
+    start: CurvePoint,
+    progress: Callable[[CurvePoint | Located | End], None] | None,
+    known: Sequence[Located] = (),
+) -> Trace:
+    """Collect a walk; an interrupt (Ctrl-C) ends it and keeps what there is. `known` as for `Walker.walk`."""
     result = Trace([start])
     try:
-        for item in walker.walk(start):
+        for item in guarded(walker.walk(start, known)):
             if isinstance(item, End):
                 result.end = item
             elif isinstance(item, Located):
