@@ -205,7 +205,7 @@ def iterate_equilibria(
         if isinstance(item, CurvePoint):
             yield make_point(system.problem, item.x, system.values(item.y))
         elif isinstance(item, Located):
-            row = make_point(system.problem, item.point.x, system.values(item.point.y))
+            row = make_point(system.problem, item.point.x, system.values(item.point.y), item.kind)
             yield special_point(row, item, "", 0, {p.name: (p.low, p.high) for p in system.free}, "equilibria")
 
 

@@ -120,8 +120,6 @@ def _through(
 ) -> Branch | None:
     """Return the branch through a branch point with a given tangent, or None if it cannot be entered."""
     x, y = point.state, system.start_y()
-    lead = tangent[system.n] if abs(tangent[system.n]) > 1e-6 else tangent[np.argmax(np.abs(tangent))]
-    tangent = tangent if lead > 0 else -tangent
     neutral: list[Located] = []
     walker = equilibrium_walker(system, settings, neutral, {})
     halves: list[Trace] = []

@@ -1,4 +1,4 @@
-"""The test problems that are followed under noise: classic fields, random ones, mechanisms. A name, and what to compute.
+"""The test problems that are followed under noise: classic fields, random ones, mechanisms. A name, what to compute.
 
 Each is made anew whenever it is called: nothing that rounding could have touched is kept from another call.
 """
@@ -81,7 +81,8 @@ def _fields() -> Iterator[tuple[str, Job]]:
     for radius in (1.0, 1e-3):
         yield f"isola of radius {radius:g}", partial(_isola_entered_at_its_folds, radius)
     for gap, sign in ((0.1, 1.0), (1e-3, 1.0), (0.1, -1.0), (1e-3, -1.0)):
-        yield f"hyperbolas {sign * gap:+g}", partial(_curve, partial(test_stepper.hyperbolas, gap, sign), "la", -1.0, 1.0)
+        field = partial(test_stepper.hyperbolas, gap, sign)
+        yield f"hyperbolas {sign * gap:+g}", partial(_curve, field, "la", -1.0, 1.0)
     for eps in (0.1, -1e-3):
         yield f"imperfect pitchfork {eps:+g}", partial(_curve, partial(test_stepper.imperfect, eps), "mu", -1.0, 1.0)
     yield "twin waves", partial(_curve, partial(test_stepper.twin_waves, 1e-3), "t", -1.0, 1.0, state=[0.0])

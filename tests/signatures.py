@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,8 @@ from mjcont.pathresults import LoadPath
 STATED = 10.0
 # what a tolerance cannot fall below: some units in the last place of a parameter's coordinate
 FLOOR = 1e-12
+# special points that differ by less, in states and in parts of parameters' ranges, are at one place
+SAME_PLACE = 1e-6
 # curves that end where their steps happened to take them
 WANDERING = ("max points", "max arclength", "max time", "runs off", "interrupted", "stopped")
 
@@ -52,7 +54,8 @@ def differences(one: Signature, other: Signature) -> list[str]:
         if isinstance(a, Number) and isinstance(b, Number):
             allowed = STATED * max(a.tolerance, b.tolerance)
             if not abs(a.value - b.value) <= allowed and not a.value == b.value:
-                found.append(f"{name}: {a.value!r} and {b.value!r}, {abs(a.value - b.value):.1e} apart for {allowed:.1e}")
+                apart = abs(a.value - b.value)
+                found.append(f"{name}: {a.value!r} and {b.value!r}, {apart:.1e} apart for {allowed:.1e}")
         elif a != b:
             found.append(f"{name}: {a} and {b}")
     return sorted(found)
@@ -84,10 +87,8 @@ def _marks(result: Any, name: str) -> Iterator[tuple[str, str | Number]]:
 
 
 def _branch(branch: mc.Branch, name: str) -> Iterator[tuple[str, str | Number]]:
-    yield f"{name} points", " ".join(p.label for p in branch.special_points)
-    words = zip(branch.stability.tolist(), branch.n_unstable.tolist(), branch.labels, strict=True)
-    runs = [key for key, _ in itertools.groupby(f"{word} {count}" for word, count, label in words if not label)]
-    yield f"{name} stability", ", ".join(runs)
+    yield f"{name} points", _in_order(branch.special_points)
+    yield f"{name} stability", _stretches(branch)
     yield f"{name} neutral saddles", str(len(branch.neutral_saddles))
     for p in branch.special_points:
         yield from _special(p, f"{name} {p.label}")
@@ -97,6 +98,29 @@ def _branch(branch: mc.Branch, name: str) -> Iterator[tuple[str, str | Number]]:
             continue
         for n, (low, high) in branch.free.items():
             yield f"{name} {which} end at {n}", Number(float(branch[n][row]), 1e-7 * (high - low))
+
+
+def _in_order(points: Sequence[mc.SpecialPoint]) -> str:
+    """Return the labels in order along the branch; of points at one place neither comes first."""
+    places: list[list[mc.SpecialPoint]] = []
+    for p in points:
+        if places and _apart(places[-1][-1], p) < SAME_PLACE:
+            places[-1].append(p)
+        else:
+            places.append([p])
+    return " ".join("+".join(sorted(p.label for p in place)) for place in places)
+
+
+def _apart(p: mc.SpecialPoint, q: mc.SpecialPoint) -> float:
+    moved = [abs(p[n] - q[n]) / (high - low) for n, (low, high) in p.free.items()]
+    return float(max(*moved, np.abs(p.state - q.state).max()))
+
+
+def _stretches(branch: mc.Branch) -> str:
+    """Return stability and number of unstable eigenvalues along a branch; where it is marginal its sides count."""
+    rows = zip(branch.stability.tolist(), branch.n_unstable.tolist(), branch.labels, strict=True)
+    told = [f"{word} {count}" for word, count, label in rows if not label and word != "marginal"]
+    return ", ".join(key for key, _ in itertools.groupby(told)) or "marginal"
 
 
 def _special(p: mc.SpecialPoint, name: str) -> Iterator[tuple[str, str | Number]]:

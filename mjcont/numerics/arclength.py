@@ -16,7 +16,7 @@ import numpy as np
 from scipy import sparse
 from scipy.optimize import brentq
 
-from mjcont.numerics.bordered import Factored, border, null_vectors
+from mjcont.numerics.bordered import Factored, border, null_vectors, oriented
 from mjcont.numerics.hermite import arc, combine, hermite, lagrange
 from mjcont.numerics.newton import Corrected, correct, length, undefined, with_row
 from mjcont.numerics.problem import Array
@@ -124,8 +124,8 @@ def first_point(
     c = correct(system, x, y, row, None, settings)
     if c.failure:
         return c.failure
-    component = tangent[lead] if abs(tangent[lead]) > _AT_FOLD else tangent[np.argmax(np.abs(tangent))]
-    return point_from(c, tangent if component * direction > 0 else -tangent, 0.0)
+    upwards = math.copysign(1.0, tangent[lead]) * tangent if abs(tangent[lead]) > _AT_FOLD else oriented(tangent)
+    return point_from(c, upwards if direction > 0 else -upwards, 0.0)
 
 
 def tangent_at(system: System, local: Local, y: Array) -> Array:
