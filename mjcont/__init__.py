@@ -18,6 +18,7 @@ from typing import Any as _Any
 
 from mjcont.errors import (
     BoundsError,
+    FunctionError,
     MjcontError,
     ModelError,
     ModelWarning,
@@ -110,6 +111,7 @@ __all__ = [
     "Equilibria",
     "Equilibrium",
     "FollowedPoint",
+    "FunctionError",
     "History",
     "Jump",
     "LoadPath",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
@@ -18,10 +17,11 @@ from mjcont.numerics.events import Located, ScalarZero
 from mjcont.numerics.guard import guarded
 from mjcont.numerics.newton import Corrected, find_start, solve
 from mjcont.numerics.problem import Array, Values
-from mjcont.numerics.settings import Settings
+from mjcont.numerics.settings import Settings, check_numbers
 from mjcont.numerics.steps import End, Status
 from mjcont.numerics.system import Free, System
 from mjcont.numerics.trace import Walker
+from mjcont.quantities import finite, finite_pair
 from mjcont.walkers import equilibrium_walker, monitor_of, point_stop
 
 
@@ -30,14 +30,15 @@ def make_settings(options: Mapping[str, Any]) -> Settings:
 
     Raises
     ------
-    NameLookupError
-        If an option does not exist; the message lists those that do.
+    NameLookupError, ParameterError
+        If an option does not exist (the message lists those that do) or does not fit.
     """
     valid = [f.name for f in fields(Settings)]
     for name in options:
         if name not in valid:
             raise unknown_name("option", name, valid)
     given = dict(options)
+    check_numbers(given)
     if "ds" not in given and "ds_max" in given:
         given["ds"] = min(Settings().ds, given["ds_max"])
     if "ds_min" not in given and "ds" in given:
@@ -58,13 +59,8 @@ def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) ->
         raise BoundsError(f"'{name}' is a switch, 0 or 1, and cannot vary along a curve: give it as a start value")
     if bounds is None:
         own, hard = parameter.bounds, parameter.hard_bounds
-        return max(own[0], hard[0]), min(own[1], hard[1])
-    try:
-        low, high = (float(b) for b in bounds)
-    except (TypeError, ValueError) as error:
-        raise BoundsError(f"bounds of {name} must be two numbers (low, high), got {bounds!r}") from error
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise BoundsError(f"bounds of {name} must be finite with low < high, got ({low:g}, {high:g})")
+        return finite_pair(f"bounds of {name}", (max(own[0], hard[0]), min(own[1], hard[1])))
+    low, high = finite_pair(f"bounds of {name}", bounds)
     hard_low, hard_high = parameter.hard_bounds
     if low < hard_low or high > hard_high:
         raise BoundsError(
@@ -72,6 +68,16 @@ def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) ->
             + ("" if parameter.springs else " or widen the range in the XML")
         )
     return low, high
+
+
+def check_limits(name: str, ends: Any) -> None:
+    """Raise a BoundsError unless the limits of a column are two numbers low <= high; either may be infinite."""
+    try:
+        low, high = (float(e) for e in ends)
+    except (TypeError, ValueError) as error:
+        raise BoundsError(f"limits of {name} must be two numbers (low, high), got {ends!r}") from error
+    if not low <= high:
+        raise BoundsError(f"limits of {name} must have low <= high, got ({low:g}, {high:g})")
 
 
 def start_from(
@@ -86,6 +92,7 @@ def start_from(
     return problem.start_state(keyframe, state), problem.values(start)
 
 
+@np.errstate(all="ignore")
 def find_equilibrium(
     problem: Any, start: Mapping[str, float] | Point | None = None, *, keyframe: str | None = None, state: Any = None
 ) -> Point:
@@ -112,6 +119,7 @@ def _start_name(start: Any, keyframe: str | None, state: Any) -> str:
     return "the given point" if isinstance(start, Point) else "the model's initial pose"
 
 
+@np.errstate(all="ignore")
 def continue_equilibria(
     problem: Any,
     parameter: str,
@@ -244,6 +252,10 @@ def _prepare(
     for name in (*(zeros or {}), *(limits or {})):
         if name not in problem.parameters:
             problem.observable(name)
+    for name, value in (zeros or {}).items():
+        finite(f"zeros: the value of {name}", value)
+    for name, ends in (limits or {}).items():
+        check_limits(name, ends)
     problem, notes = hold_rigid_modes(problem, x, values)
     refuse_pushing(problem, parameter, x, values)
     if notes:
@@ -310,6 +322,7 @@ def check_direction(direction: int | None) -> tuple[float, ...]:
     return (-1.0, 1.0) if direction is None else (float(direction),)
 
 
+@np.errstate(all="ignore")
 def points_at(branch: Branch, name: str, value: float) -> list[Point]:
     """Return the points of a branch of equilibria at which a column has a value, corrected to it."""
     if branch.problem is None:

@@ -63,6 +63,7 @@ class Diagram:
         return "\n".join([*lines, *self.notes])
 
 
+@np.errstate(all="ignore")
 def switch_branches(
     point: SpecialPoint,
     bounds: tuple[float, float] | None = None,
@@ -168,6 +169,7 @@ def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool
     return True
 
 
+@np.errstate(all="ignore")
 def bifurcation_diagram(
     problem: Any,
     parameter: str,

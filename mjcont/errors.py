@@ -29,6 +29,10 @@ class BoundsError(MjcontError):
     """Bounds that are empty, exclude the start, or leave the range of a control."""
 
 
+class FunctionError(MjcontError):
+    """A function of the user's own, such as a vector field's, that raised an error or returned no numbers."""
+
+
 class StartError(MjcontError):
     """No equilibrium was found from the given start."""
 

@@ -16,12 +16,15 @@ from mjcont.quantities import FRICTION
 _DISABLE = mujoco.mjtDisableBit
 _OBJ = mujoco.mjtObj
 _SHOWN = 6
+# fields that may be infinite: ranges, and what MuJoCo only carries
+_MAY_BE_INFINITE = ("range", "user", "numeric_data")
 
 
 def refuse_unsupported(model: mujoco.MjModel) -> None:
     """Raise a ModelError for features whose equilibria this version cannot compute, saying what to do instead."""
     if model.nv == 0:
         raise ModelError("the model has no degree of freedom, so nothing in it can find a place to rest: add a joint")
+    _refuse_no_numbers(model)
     if model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP:
         raise ModelError('sleeping bodies make equilibria path dependent: remove <flag sleep="enable"/>')
     if np.any(model.jnt_springyield > 0) or np.any(model.tendon_springyield > 0):
@@ -31,6 +34,18 @@ def refuse_unsupported(model: mujoco.MjModel) -> None:
     for plugin in np.flatnonzero(model.plugin_statenum > 0):
         name = mujoco.mj_id2name(model, _OBJ.mjOBJ_PLUGIN, int(plugin)) or f"plugin{plugin}"
         raise ModelError(f"plugin '{name}' has states of its own, whose rest is unknown: remove it from the model")
+
+
+def _refuse_no_numbers(model: mujoco.MjModel) -> None:
+    """Raise a ModelError where a field of the model holds NaN, or infinity: MuJoCo reads both from XML."""
+    for owner in (model, model.opt):
+        for name in dir(owner):
+            entries = getattr(owner, name) if not name.startswith("_") else None
+            if not isinstance(entries, float | np.ndarray) or np.asarray(entries).dtype.kind != "f":
+                continue
+            infinite_too = not name.endswith(_MAY_BE_INFINITE)
+            if np.isnan(entries).any() or (infinite_too and np.isinf(entries).any()):
+                raise ModelError(f"the model's {name} holds a value that is no finite number: correct it in the model")
 
 
 def _refuse_actuator(model: mujoco.MjModel, actuator: int) -> None:

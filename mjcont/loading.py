@@ -15,11 +15,12 @@ import numpy as np
 
 from mjcont import assets
 from mjcont.equalities import describe_equalities
-from mjcont.errors import ModelError, ParameterError, unknown_name
+from mjcont.errors import ModelError, unknown_name
 from mjcont.features import touching
 from mjcont.geometry import Geometry
 from mjcont.mjcf import exact_text
 from mjcont.observables import without_sensor_filters
+from mjcont.quantities import finite_array
 from mjcont.tables import number, table, unit_shown
 from mjcont.topology import describe_topology
 
@@ -126,10 +127,7 @@ def start_state(
     """Return a start: the state given, or a keyframe's, or qpos0."""
     m: Any = mechanism
     if state is not None:
-        x = np.array(state, dtype=float)
-        if x.shape != (m.nq,):
-            raise ParameterError(f"state must have shape ({m.nq},) for model '{m.name}', got {x.shape}")
-        return x
+        return finite_array(f"model '{m.name}': state", state, (m.nq,))
     if keyframe is None:
         return np.array(m.qpos0)
     if keyframe not in m.keyframes:
@@ -214,10 +212,7 @@ def keyframes(model: mujoco.MjModel) -> dict[str, np.ndarray]:
 
 def checked_state(model: mujoco.MjModel, state: Any) -> np.ndarray:
     """Return a state that a user gives as an array, (nq,)."""
-    x = np.array(state, dtype=float)
-    if x.shape != (model.nq,):
-        raise ParameterError(f"state must have shape ({model.nq},) for model '{model_name(model)}', got {x.shape}")
-    return x
+    return finite_array(f"model '{model_name(model)}': state", state, (model.nq,))
 
 
 def state_labels(model: mujoco.MjModel) -> list[tuple[str, str]]:

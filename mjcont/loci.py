@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from mjcont.branch import KIND_NAMES, Branch, SpecialPoint, show
 from mjcont.collect import Progress, collect, run_directions
 from mjcont.continuation import check_bounds, check_direction, hold_rigid_modes, make_settings
@@ -23,6 +25,7 @@ _NAMES = {"LP": "fold", "HB": "Hopf", "BP": "branch-point", "CP": "cusp", "BT": 
 CODIMENSION = {"LP": 1, "HB": 1, "BP": 1, "CP": 2, "BT": 2, "ZH": 2}
 
 
+@np.errstate(all="ignore")
 def continue_special(
     point: SpecialPoint,
     parameter: str,

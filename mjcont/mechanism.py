@@ -333,14 +333,16 @@ class Mechanism(Observed):
         if self._flat:
             return ends - starts
         ends, starts = np.broadcast_arrays(ends, starts)
-        return np.array([self.difference(b, a) for b, a in zip(ends, starts, strict=True)])
+        steps = [self.difference(b, a) for b, a in zip(ends, starts, strict=True)]
+        return np.array(steps).reshape(len(steps), self.n)
 
     def retract_each(self, states: Array, steps: Array) -> Array:
         """Return states (m, nq), or one (nq,), moved by the rows of tangent steps (m, nv)."""
         if self._flat:
             return states + steps
         every = np.broadcast_to(states, (len(steps), self.nq))
-        return np.array([self.retract(x, s) for x, s in zip(every, steps, strict=True)])
+        moved = [self.retract(x, s) for x, s in zip(every, steps, strict=True)]
+        return np.array(moved).reshape(len(moved), self.nq)
 
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from mjcont.errors import BoundsError, ParameterError
 
 FRICTION = ("frictionless", "refuse")
@@ -149,8 +151,7 @@ class Parameter:
 
     def check(self, value: float) -> None:
         """Raise unless the model can have this value: ParameterError, or BoundsError where MuJoCo would clamp it."""
-        if not math.isfinite(value):
-            raise ParameterError(f"parameter '{self.name}': the value must be a finite number, got {value}")
+        value = finite(f"parameter '{self.name}': the value", value)
         if self.kind == "switch" and value not in (0.0, 1.0):
             raise ParameterError(f"parameter '{self.name}' is a switch: its value must be 0 or 1, got {value:g}")
         low, high = self.hard_bounds
@@ -174,6 +175,41 @@ class Observable:
     unit: str
     function: Callable[[Any, Any], float]
     source: tuple[str, int] | None = None
+
+
+def finite(what: str, value: Any) -> float:
+    """Return a number as a float; ParameterError unless it is one, and finite. `what` begins the message."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise ParameterError(f"{what} must be a finite number, got {value}")
+    return number
+
+
+def finite_array(what: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """Return an array of a shape as floats; ParameterError unless it has that shape and all numbers are finite."""
+    try:
+        found = np.array(value, dtype=float)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ParameterError(f"{what} must be an array of numbers: {error}") from error
+    if found.shape != shape:
+        raise ParameterError(f"{what} must have shape {shape}, got {found.shape}")
+    if not np.isfinite(found).all():
+        raise ParameterError(f"{what} must hold finite numbers, got {found}")
+    return found
+
+
+def finite_pair(what: str, bounds: Any) -> tuple[float, float]:
+    """Return two numbers low < high, finite as their distance is; BoundsError otherwise."""
+    try:
+        low, high = (float(b) for b in bounds)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise BoundsError(f"{what} must be two numbers (low, high), got {bounds!r}") from error
+    if not (low < high and math.isfinite(high - low)):
+        raise BoundsError(f"{what} must be finite with low < high, got ({low:g}, {high:g})")
+    return low, high
 
 
 def default_bounds(value: float, unit: str = "") -> tuple[float, float]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from mjcont.errors import ParameterError, leaves_domain, unknown_name
+from mjcont.errors import FunctionError, MjcontError, ParameterError, leaves_domain, unknown_name
 from mjcont.numerics.differences import (
     FOURTH_ORDER,
     PARAMETER,
@@ -17,7 +17,7 @@ from mjcont.numerics.differences import (
     jacobian_steps,
 )
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
-from mjcont.quantities import Observable, Parameter, default_bounds
+from mjcont.quantities import Observable, Parameter, default_bounds, finite, finite_array, finite_pair
 
 
 class VectorField:
@@ -41,6 +41,12 @@ class VectorField:
         Typical size of each component, for arclength and difference steps; default 1.
     bounds : mapping of str to (low, high), optional
         Default range of each parameter.
+
+    Raises
+    ------
+    ParameterError, BoundsError, NameLookupError
+        If a start, scale, value or bound is not finite or does not fit; see the message. A function that raises (but
+        for overflow, or outside its domain) or returns no n numbers is a FunctionError where it is called.
     """
 
     second_order = False
@@ -60,15 +66,23 @@ class VectorField:
         name: str = "vector field",
     ) -> None:
         self.name = name
-        self.u0 = np.atleast_1d(np.array(u0, dtype=float))
-        self.n = len(self.u0)
+        self.n = np.size(u0)
+        if self.n == 0:
+            raise ParameterError("u0 is empty: a vector field needs at least one unknown")
+        self.u0 = finite_array("u0", np.atleast_1d(u0), (self.n,))
         self.function, self.jacobian = function, jacobian
-        self.state_scale = np.ones(self.n) if scale is None else np.array(scale, dtype=float)
+        self.state_scale = np.ones(self.n) if scale is None else finite_array("scale", scale, (self.n,))
+        if not np.all(self.state_scale > 0.0):
+            raise ParameterError(f"scale must be positive, got {self.state_scale}")
         self.evaluations = 0
         units, bounds = units or {}, bounds or {}
+        for k in bounds:
+            if k not in parameters:
+                raise unknown_name("parameter", k, parameters)
+        default = {k: finite(f"parameter '{k}': the value", v) for k, v in parameters.items()}
+        own = {k: finite_pair(f"bounds of {k}", b) for k, b in bounds.items()}
         self.parameters = {
-            k: Parameter(k, units.get(k, ""), float(v), bounds.get(k, default_bounds(float(v))), "field")
-            for k, v in parameters.items()
+            k: Parameter(k, units.get(k, ""), v, own.get(k, default_bounds(v)), "field") for k, v in default.items()
         }
         labels = list(names) if names is not None else [f"u[{i}]" for i in range(self.n)]
         if len(labels) != self.n:
@@ -88,19 +102,14 @@ class VectorField:
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the defaults for the others."""
         for name, value in (given or {}).items():
-            self.parameter(name)
-            if not np.isfinite(value):
-                raise ParameterError(f"parameter '{name}': the value must be a finite number, got {value}")
+            self.parameter(name).check(value)
         return {n: p.value for n, p in self.parameters.items()} | {n: float(v) for n, v in (given or {}).items()}
 
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return the state given, or u0."""
         if keyframe is not None:
             raise unknown_name("keyframe", keyframe, self.keyframes)
-        x = self.u0.copy() if state is None else np.array(state, dtype=float)
-        if x.shape != (self.n,):
-            raise ParameterError(f"state must have shape ({self.n},), got {x.shape}")
-        return x
+        return self.u0.copy() if state is None else finite_array("state", state, (self.n,))
 
     # -- the problem -----------------------------------------------------------------------------------------
 
@@ -108,11 +117,16 @@ class VectorField:
         """Return f, (n,); NaN where the function overflows or leaves its domain."""
         self.evaluations += 1
         try:
-            return np.array(self.function(x, values), dtype=float).reshape(self.n)
-        except (ArithmeticError, ValueError) as error:
+            found = np.array(self.function(x, values), dtype=float)
+        except MjcontError:
+            raise
+        except Exception as error:
             if leaves_domain(error):  # ends a curve there, with what came before
                 return np.full(self.n, np.nan)
-            raise
+            raise FunctionError(f"the function of {self.name} raised {type(error).__name__}: {error}") from error
+        if found.size != self.n:
+            raise FunctionError(f"the function of {self.name} returned shape {found.shape} for {self.n} unknowns")
+        return found.reshape(self.n)
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x plus each row of `steps`, (m, n)."""
@@ -138,8 +152,7 @@ class VectorField:
         del accurate
         f = self.residual(x, values)
         if self.jacobian is not None:
-            jac = self.jacobian(x, values)
-            jac = sparse.csc_matrix(jac) if sparse.issparse(jac) else np.array(jac, dtype=float)
+            jac = self._own_jacobian(self.jacobian, x, values)
         else:
             steps = jacobian_steps(self.state_scale, FOURTH_ORDER)
             jac = jacobian_from_rows(self.residuals(x, values, steps), self.state_scale, FOURTH_ORDER)
@@ -149,6 +162,21 @@ class VectorField:
             rows = [self.residual(x, {**values, name: values[name] + o * h}) for o in rule.offsets]
             par[:, k] = np.asarray(rule.weights) @ np.array(rows) / h
         return Linearization(f, jac, par)
+
+    def _own_jacobian(self, function: Callable[[Array, Values], Any], x: Array, values: Values) -> Any:
+        """Return the user's df/du, NaN where it overflows or leaves its domain."""
+        try:
+            jac = function(x, values)
+            jac = sparse.csc_matrix(jac, dtype=float) if sparse.issparse(jac) else np.array(jac, dtype=float)
+        except MjcontError:
+            raise
+        except Exception as error:
+            if leaves_domain(error):
+                return np.full((self.n, self.n), np.nan)
+            raise FunctionError(f"the jacobian of {self.name} raised {type(error).__name__}: {error}") from error
+        if jac.shape != (self.n, self.n):
+            raise FunctionError(f"the jacobian of {self.name} returned shape {jac.shape} for {self.n} unknowns")
+        return jac
 
     def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
         """Return the fourth-order rule and a step relative to the parameter's value, or to its span near zero."""
@@ -196,7 +224,7 @@ class VectorField:
         """Return observables for states (m, n), shape (m, number of names)."""
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
         per_row = [values] * len(states) if isinstance(values, Mapping) else values
-        return np.array([[o.function(v, x) for o in chosen] for x, v in zip(states, per_row, strict=True)])
+        return np.array([[_measured(o, v, x) for o in chosen] for x, v in zip(states, per_row, strict=True)])
 
     def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
         """Return all observables for states (m, n), a parameter having a value of its own in each (m,)."""
@@ -206,6 +234,17 @@ class VectorField:
         """List parameters and components."""
         names = ", ".join(f"{p.name} = {p.value:g}" for p in self.parameters.values())
         return f"{self.name}: {self.n} unknowns; parameters {names}"
+
+
+def _measured(observable: Observable, values: Values, x: Array) -> float:
+    try:
+        return float(observable.function(values, x))
+    except MjcontError:
+        raise
+    except Exception as error:
+        if leaves_domain(error):
+            return np.nan
+        raise FunctionError(f"observable '{observable.name}' raised {type(error).__name__}: {error}") from error
 
 
 def _component(i: int) -> Callable[[Any, Any], float]:

@@ -7,6 +7,9 @@ from functools import cache
 import pytest
 
 import mjcont as mc
+from mjcont.numerics import guard
+
+guard.raise_unexpected(True)  # what a user meets as a status is a failure here
 
 BOUNDS = (-50.0, 60.0)
 START = 50.0

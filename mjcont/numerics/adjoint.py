@@ -16,11 +16,13 @@ so that a parameter costs a few evaluations of f instead of a solution. Other co
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, cast
 
 import numpy as np
 
+from mjcont.errors import MjcontError
 from mjcont.numerics.bordered import Factored, border
 from mjcont.numerics.defining import Fold, FoldCoefficient
 from mjcont.numerics.differences import FIRST, NODES, PARAMETER, SECOND, Stencil, length_of, second_form
@@ -45,7 +47,7 @@ class Adjoint:
 
     def __init__(self, system: System, x: Array, y: Array) -> None:
         if system.equations != system.n + system.k:
-            raise ValueError(f"{system.equations} equations for {system.n + system.k} unknowns")
+            raise MjcontError(f"{system.equations} equations for {system.n + system.k} unknowns: no square system")
         self.system, self.x, self.y = system, x, y
         self.local = system.local(x, y)
         self._frozen = _Frozen(system, self.local)
@@ -68,7 +70,7 @@ class Adjoint:
             return None
         _, w = fold.physical(self.local)
         slope = float(w @ self.local.par[:, 0]) * self.system.free[0].slope(float(self.y[0]))
-        return np.append(w * (gradient[n] / slope), 0.0)
+        return np.append(w * (gradient[n] / slope if slope else math.nan), 0.0)
 
     def _jacobian(self) -> Any:
         system, n = self.system, self.system.n

@@ -7,6 +7,7 @@ also hide it, so the test suite calls `raise_unexpected(True)` (`tests/conftest.
 from __future__ import annotations
 
 from collections.abc import Iterator
+
 from mjcont.errors import MjcontError
 from mjcont.numerics.arclength import CurvePoint
 from mjcont.numerics.events import Located

@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from numbers import Real
+from typing import Any
 
 from mjcont.errors import ParameterError
 
 SMALLEST_CHORD = 1e-9
+
+
+def check_numbers(options: Mapping[str, Any]) -> None:
+    """Raise a ParameterError unless all values are numbers."""
+    for name, value in options.items():
+        if isinstance(value, bool) or not isinstance(value, Real) or math.isnan(value):
+            raise ParameterError(f"{name} must be a number, got {value!r}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +57,7 @@ class Settings:
     chord: float = 3e-6
 
     def __post_init__(self) -> None:
+        check_numbers(asdict(self))
         if not 0 < self.ds_min <= self.ds <= self.ds_max:
             raise ParameterError(
                 f"steps must satisfy 0 < ds_min <= ds <= ds_max, got {self.ds_min:g}, {self.ds:g}, {self.ds_max:g}"
@@ -55,5 +66,9 @@ class Settings:
             raise ParameterError("angles must satisfy 0 < angle < angle_max < pi/2 (radians)")
         if self.max_points < 2 or self.max_corrections < 2:
             raise ParameterError("max_points and max_corrections must be at least 2")
+        if not (self.tol > 0 and self.max_size > 0):
+            raise ParameterError(f"tol and max_size must be positive, got {self.tol:g}, {self.max_size:g}")
+        if math.isinf(self.ds_max) or math.isinf(self.tol):
+            raise ParameterError("ds_max and tol must be finite")
         if not self.chord >= SMALLEST_CHORD:
             raise ParameterError(f"chord must be {SMALLEST_CHORD:g} or more (inf adds no rows), got {self.chord:g}")
