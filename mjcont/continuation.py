@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.branch import Branch, Point, show
+from mjcont.branch import Branch, Point, SpecialPoint, show
 from mjcont.collect import Progress, collect, make_point, run_directions, special_point
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError, unknown_name
 from mjcont.numerics.arclength import CurvePoint, first_point
 from mjcont.numerics.equilibria import square_system
 from mjcont.numerics.events import Located, ScalarZero
 from mjcont.numerics.guard import guarded
-from mjcont.numerics.newton import Corrected, find_start, solve
+from mjcont.numerics.newton import LARGEST_ERROR, Corrected, Start, find_start, solve
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings, check_numbers
 from mjcont.numerics.steps import End, Status
@@ -105,10 +105,23 @@ def find_equilibrium(
     """
     x, values = start_from(problem, start, keyframe, state)
     problem, _ = hold_rigid_modes(problem, x, values)
-    found = find_start(problem, x, values)
+    found = settled(problem, start if state is keyframe is None else None, x, values)
     if found.failure:
         raise StartError(f"no equilibrium found from {_start_name(start, keyframe, state)}: {found.failure}")
     return make_point(problem, found.x, values)
+
+
+def settled(problem: Any, start: Any, x: Array, values: Values) -> Start:
+    """Return the equilibrium that a state belongs to. A located special point is one as it stands.
+
+    At its parameters Newton's method would meet a singular matrix and go astray by rounding.
+    """
+    if isinstance(start, SpecialPoint) and start.converged:
+        system, no_y = System(problem, values, ()), np.zeros(0)
+        error = system.error(system.local(x, no_y), x, no_y)
+        if error < LARGEST_ERROR:
+            return Start(x, "located", 0.0, error)
+    return find_start(problem, x, values)
 
 
 def _start_name(start: Any, keyframe: str | None, state: Any) -> str:
@@ -260,7 +273,7 @@ def _prepare(
     refuse_pushing(problem, parameter, x, values)
     if notes:
         problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
-    found = find_start(problem, x, values)
+    found = settled(problem, start if state is keyframe is None else None, x, values)
     origin = _start_name(start, keyframe, state)
     if found.failure:
         raise StartError(f"no equilibrium found from {origin}: {found.failure}")
@@ -269,8 +282,8 @@ def _prepare(
     walker = equilibrium_walker(
         system, settings, neutral, zeros or {}, point_stop(problem, system, stop, limits or {})
     )
-    origin = f"{origin}, by Newton" if found.method == "newton" else f"{origin}, by damped motion to rest"
-    return _Prepared(walker, found.x, f"from {origin}", neutral, notes)
+    way = {"newton": ", by Newton", "located": ""}.get(found.method, ", by damped motion to rest")
+    return _Prepared(walker, found.x, f"from {origin}{way}", neutral, notes)
 
 
 def hold_rigid_modes(

@@ -201,7 +201,8 @@ def bifurcation_diagram(
     for start, keyframe in tries:
         if any(b.interrupted for b in branches):
             break
-        point = find_equilibrium(problem, start, keyframe=keyframe)
+        located = isinstance(start, SpecialPoint) and start.converged and keyframe is None
+        point = start if located else find_equilibrium(problem, start, keyframe=keyframe)
         if not any(covers(b, point) for b in branches):
             branches.append(continue_equilibria(problem, parameter, bounds, point, progress=progress, **options))
     queue = [p for b in branches for p in b.of_kind("BP")]

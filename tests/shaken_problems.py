@@ -77,7 +77,7 @@ def _fields() -> Iterator[tuple[str, Job]]:
     yield "adaptx", partial(_curve, known.adaptx, "alpha", 0.1, 2.0)
     yield "brusselator", partial(_curve, known.brusselator, "B", 0.5, 8.0)
     yield "bratu", partial(known.branch_of_bratu.__wrapped__, 100)
-    yield "brusselator in a tube", partial(_curve, lambda: known.tube(20), "B", 1.0, 6.2)
+    yield "brusselator in a tube", partial(_curve, lambda: known.tube(10), "B", 1.0, 6.2)
     for radius in (1.0, 1e-3):
         yield f"isola of radius {radius:g}", partial(_isola_entered_at_its_folds, radius)
     for gap, sign in ((0.1, 1.0), (1e-3, 1.0), (0.1, -1.0), (1e-3, -1.0)):
@@ -115,11 +115,9 @@ def _loci() -> Iterator[tuple[str, Job]]:
     for name in ("k", "e"):
         curve = partial(_curve, test_loci.pitchfork, "mu", -1.0, 1.0)
         yield f"branch points in {name}", partial(_locus, curve, "BP1", name, -0.5, 0.5)
-    for form in test_loci.FORMS:
+    for form, label in zip(test_loci.FORMS, ("HB1", "LP1"), strict=True):
         curve = partial(_curve, partial(test_loci.zero_hopf, *form), "b1", -1.5, 1.0)
-        yield f"zero-Hopf {form}", lambda curve=curve: [
-            _locus(curve, label, "b2", -0.6, 0.6) for label in ("LP1", "HB1")
-        ]
+        yield f"{label} beside a zero-Hopf point", partial(_locus, curve, label, "b2", -0.2, 0.4)
     yield "double Hopf", partial(
         _locus, lambda: _curve(test_loci.double_hopf, "mu", -1.0, 1.5), "HB1", "nu", 0.0, 1.0
     )
@@ -150,7 +148,7 @@ def polynomial(seed: int) -> mc.VectorField:
 
 
 def _random() -> Iterator[tuple[str, Job]]:
-    for seed in range(10):
+    for seed in range(8):
         yield f"network {seed}", partial(_curve, partial(network, seed), "p", -4.0, 4.0, max_points=400)
         yield f"polynomial {seed}", partial(_curve, partial(polynomial, seed), "p", -3.0, 3.0, max_points=400)
     for seed in range(20):

@@ -118,8 +118,11 @@ def _apart(p: mc.SpecialPoint, q: mc.SpecialPoint) -> float:
 
 def _stretches(branch: mc.Branch) -> str:
     """Return stability and number of unstable eigenvalues along a branch; where it is marginal its sides count."""
-    rows = zip(branch.stability.tolist(), branch.n_unstable.tolist(), branch.labels, strict=True)
-    told = [f"{word} {count}" for word, count, label in rows if not label and word != "marginal"]
+    aside = np.ones(len(branch), dtype=bool)
+    for p in branch.special_points:
+        aside &= np.abs(branch.states - p.state).max(axis=1) > SAME_PLACE
+    rows = zip(branch.stability.tolist(), branch.n_unstable.tolist(), aside.tolist(), strict=True)
+    told = [f"{word} {count}" for word, count, counts in rows if counts and word != "marginal"]
     return ", ".join(key for key, _ in itertools.groupby(told)) or "marginal"
 
 

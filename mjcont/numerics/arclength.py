@@ -124,8 +124,12 @@ def first_point(
     c = correct(system, x, y, row, None, settings)
     if c.failure:
         return c.failure
-    upwards = math.copysign(1.0, tangent[lead]) * tangent if abs(tangent[lead]) > _AT_FOLD else oriented(tangent)
-    return point_from(c, upwards if direction > 0 else -upwards, 0.0)
+    at_fold = abs(tangent[lead]) <= _AT_FOLD
+    upwards = oriented(tangent) if at_fold else math.copysign(1.0, tangent[lead]) * tangent
+    first = point_from(c, upwards if direction > 0 else -upwards, 0.0)
+    if at_fold:  # on the fold as far as can be told: it belongs to both directions, whatever the sign of the noise
+        first.tangent[lead] = 0.0
+    return first
 
 
 def tangent_at(system: System, local: Local, y: Array) -> Array:
