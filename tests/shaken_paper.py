@@ -68,7 +68,7 @@ def _fig06() -> Any:
 
 
 def _fig08() -> list[Any]:
-    """Return the folds with stiff joints, their curves in stiffness, and the branches that meet the first at 1e4 N/m."""
+    """Return the folds with stiff joints, their curves in stiffness, and the branches that meet the first at 1e4."""
     gear, soft = _full_gear(), fig08.STIFFNESS[0]
     folds = fig08.stiff_folds(gear)
     loci = [mc.continue_special(p, "k_j", fig08.SPAN, zeros={"k_j": soft}) for p in folds]
