@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.curves.rows import CROSSINGS, CurveRows, curve_rows
+from mjcont.curves.rows import CurveRows, curve_rows
 from mjcont.errors import StartError
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.spectra.spectrum import Spectrum
-from mjcont.numerics.spectra.stability import local_spectrum
+from mjcont.numerics.spectra.stability import holds_eigenvalues, local_spectrum, verdict_at
 from mjcont.numerics.step.arclength import CurvePoint, first_point, turned_back
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace, Walker, trace
@@ -39,12 +39,13 @@ Progress = Callable[[int, Found | None], None]
 _VECTOR_NAMES = ("v", "w")
 
 
-def make_point(problem: Any, x: Array, values: Values) -> Point:
-    """Return the Point of an equilibrium, with observables, eigenvalues and stability."""
+def make_point(problem: Any, x: Array, values: Values, kind: str = "") -> Point:
+    """Return the Point of an equilibrium, or of a special point of a kind, with observables, eigenvalues, stability."""
     s = local_spectrum(Local(problem, x, values, (), False))
+    word, count = verdict_at(kind, s) if holds_eigenvalues(kind) else (s.stability, s.n_unstable)
     measured = problem.measure(x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
-    return Point(dict(values), observables, x.copy(), s.eigenvalues, s.stability, s.n_unstable, problem, units(problem))
+    return Point(dict(values), observables, x.copy(), s.eigenvalues, word, count, problem, units(problem))
 
 
 def _found(system: System, item: Located) -> Found:
@@ -175,9 +176,11 @@ def build_branch(
     system, states = rows.system, rows.states
     problem: Any = system.problem
     words, counts, spectra = rows.stability()
+    for i, s in enumerate(spectra):
+        at = _kind_at(kind, rows.located[i])
+        if at and s is not None:
+            words[i], counts[i] = verdict_at(at, s)
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
-    crossings = [i for i, e in enumerate(rows.located) if e is not None and e.kind in CROSSINGS]
-    stability[crossings] = "marginal"
     base = rows.values(0)
     lead = system.names[0]
     if len(system.free) == 1 and lead in problem.parameters:
@@ -219,6 +222,12 @@ def build_branch(
     object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows.located, spectra)))
     object.__setattr__(branch, "start", _describe_start(branch, origin))
     return branch
+
+
+def _kind_at(curve: str, special: Located | None) -> str:
+    """Return the kind of special point that a row is, on a curve of a kind, if such points hold eigenvalues."""
+    kinds = (special.kind if special is not None else "", curve.removesuffix(" locus"))
+    return next((kind for kind in kinds if holds_eigenvalues(kind)), "")
 
 
 def _springs(rows: CurveRows) -> list[str]:

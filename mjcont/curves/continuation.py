@@ -11,7 +11,7 @@ import numpy as np
 from mjcont.curves.collect import Progress, collect, make_point, run_directions, special_point
 from mjcont.curves.walkers import equilibrium_walker, monitor_of, point_stop
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
-from mjcont.numerics.equations.newton import Corrected, find_start, solve
+from mjcont.numerics.equations.newton import LARGEST_ERROR, Corrected, Start, find_start, solve
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.settings import make_settings
 from mjcont.numerics.equations.system import Free, System
@@ -22,7 +22,7 @@ from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
-from mjcont.results.points import Point, show
+from mjcont.results.points import Point, SpecialPoint, show
 from mjcont.results.quantities import check_bounds, finite
 
 
@@ -61,10 +61,23 @@ def find_equilibrium(
     """
     x, values = start_from(problem, start, keyframe, state)
     problem, _ = hold_rigid_modes(problem, x, values)
-    found = find_start(problem, x, values)
+    found = settled(problem, start if state is keyframe is None else None, x, values)
     if found.failure:
         raise StartError(f"no equilibrium found from {_start_name(start, keyframe, state)}: {found.failure}")
     return make_point(problem, found.x, values)
+
+
+def settled(problem: Any, start: Any, x: Array, values: Values) -> Start:
+    """Return the equilibrium that a state belongs to. A located special point is one as it stands.
+
+    At its parameters Newton's method would meet a singular matrix and go astray by rounding.
+    """
+    if isinstance(start, SpecialPoint) and start.converged:
+        system, no_y = System(problem, values, ()), np.zeros(0)
+        error = system.error(system.local(x, no_y), x, no_y)
+        if error < LARGEST_ERROR:
+            return Start(x, "located", 0.0, error)
+    return find_start(problem, x, values)
 
 
 def _start_name(start: Any, keyframe: str | None, state: Any) -> str:
@@ -169,7 +182,7 @@ def iterate_equilibria(
         if isinstance(item, CurvePoint):
             yield make_point(system.problem, item.x, system.values(item.y))
         elif isinstance(item, Located):
-            row = make_point(system.problem, item.point.x, system.values(item.point.y))
+            row = make_point(system.problem, item.point.x, system.values(item.point.y), item.kind)
             yield special_point(row, item, "", 0, {p.name: (p.low, p.high) for p in system.free}, "equilibria")
 
 
@@ -216,7 +229,7 @@ def _prepare(
     refuse_pushing(problem, parameter, x, values)
     if notes:
         problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
-    found = find_start(problem, x, values)
+    found = settled(problem, start if state is keyframe is None else None, x, values)
     origin = _start_name(start, keyframe, state)
     if found.failure:
         raise StartError(f"no equilibrium found from {origin}: {found.failure}")
@@ -225,8 +238,8 @@ def _prepare(
     walker = equilibrium_walker(
         system, settings, neutral, zeros or {}, point_stop(problem, system, stop, limits or {})
     )
-    origin = f"{origin}, by Newton" if found.method == "newton" else f"{origin}, by damped motion to rest"
-    return _Prepared(walker, found.x, f"from {origin}", neutral, notes)
+    way = {"newton": ", by Newton", "located": ""}.get(found.method, ", by damped motion to rest")
+    return _Prepared(walker, found.x, f"from {origin}{way}", neutral, notes)
 
 
 def hold_rigid_modes(

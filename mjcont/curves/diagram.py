@@ -85,8 +85,6 @@ def _through(
 ) -> Branch | None:
     """Return the branch through a branch point with a given tangent, or None if it cannot be entered."""
     x, y = point.state, system.start_y()
-    lead = tangent[system.n] if abs(tangent[system.n]) > 1e-6 else tangent[np.argmax(np.abs(tangent))]
-    tangent = tangent if lead > 0 else -tangent
     neutral: list[Located] = []
     walker = equilibrium_walker(system, settings, neutral, {})
     halves: list[Trace] = []
@@ -167,7 +165,8 @@ def bifurcation_diagram(
     for start, keyframe in tries:
         if any(b.interrupted for b in branches):
             break
-        point = find_equilibrium(problem, start, keyframe=keyframe)
+        located = isinstance(start, SpecialPoint) and start.converged and keyframe is None
+        point = start if located else find_equilibrium(problem, start, keyframe=keyframe)
         if not any(covers(b, point) for b in branches):
             branches.append(continue_equilibria(problem, parameter, bounds, point, progress=progress, **options))
     queue = [p for b in branches for p in b.of_kind("BP")]

@@ -77,7 +77,7 @@ class CurveRows:
         explains it, or both are special points, it has one of its own.
         """
         own = [i for i, p in enumerate(self.points) if p is not None]
-        special = {k for k, i in enumerate(own) if self.located[i] is not None}
+        special = {k for k, i in enumerate(own) if self.located[i] is not None or self.system.conditions}
         words, counts, spectra = verdicts([p for p in self.points if p is not None], special)
         if len(own) == len(self):
             return words, counts, spectra

@@ -18,7 +18,7 @@ from mjcont.curves.continuation import hold_rigid_modes
 from mjcont.curves.loci import CODIMENSION, followed_as
 from mjcont.curves.walkers import monitor_of
 from mjcont.errors import MjcontError, ParameterError
-from mjcont.numerics.equations.bordered import Factored
+from mjcont.numerics.equations.bordered import Factored, oriented
 from mjcont.numerics.equations.defining import Fold, Transversality
 from mjcont.numerics.equations.newton import Corrected, solve
 from mjcont.numerics.equations.problem import Array
@@ -94,8 +94,7 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
     coefficients, vectors = dict(like.coefficients), dict(like.vectors)
     if kind in ("LP", "CP"):
         v, w = system.conditions[0].physical(local)  # type: ignore[attr-defined]
-        v = v / np.linalg.norm(v)
-        v *= 1.0 if v[np.argmax(np.abs(v))] > 0 else -1.0
+        v = oriented(v / np.linalg.norm(v))
         w = w / (w @ v) if abs(w @ v) > 1e-12 * np.linalg.norm(w) else w / np.linalg.norm(w)
         function = normalform.fold_coefficient if kind == "LP" else normalform.cusp_coefficient
         coefficients = {"a" if kind == "LP" else "c": function(local, v, w)}
@@ -106,13 +105,13 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
         coefficients = {"omega": omega, "l1": l1, "type": "supercritical" if l1 < 0 else "subcritical"}
     elif kind != "UZ":
         coefficients, vectors = {k: v for k, v in coefficients.items() if k == "omega"}, {}
-    p = make_point(like.problem, c.x, values)
+    p = make_point(like.problem, c.x, values, like.kind)
     own = point_names(like)
     free = {n: _around(like.problem.parameters[n], b, values[n]) if n in own else b for n, b in like.free.items()}
     return replace(
         like, parameters=p.parameters, observables=p.observables, state=p.state, eigenvalues=p.eigenvalues,
-        n_unstable=p.n_unstable, stability="marginal" if kind in ("LP", "HB", "BP") else p.stability,
-        tolerance=c.step, coefficients=coefficients, vectors=vectors, units=p.units, free=free,
+        n_unstable=p.n_unstable, stability=p.stability, tolerance=c.step, coefficients=coefficients, vectors=vectors,
+        units=p.units, free=free,
     )
 
 

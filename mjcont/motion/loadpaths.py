@@ -21,6 +21,7 @@ from mjcont.mechanism.energy import potential_energy, without_potential
 from mjcont.motion.escape import Landing, escape
 from mjcont.motion.legs import FRACTION, Leg, unwrapped
 from mjcont.numerics.equations.algebra import eigenvectors, singular, solve
+from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Free, Local, System
@@ -326,7 +327,7 @@ def _critical(problem: Any, point: Any, kind: str, travel: Array) -> Array:
     size = float(np.linalg.norm(vector / scale) * np.linalg.norm(travel / scale))
     if abs(onward) > 0.1 * size:
         return vector * np.sign(onward)
-    return vector * np.sign(vector[np.argmax(np.abs(vector))])
+    return oriented(vector)
 
 
 def _mode(problem: Any, local: Local, kind: str) -> Array:
@@ -337,7 +338,7 @@ def _mode(problem: Any, local: Local, kind: str) -> Array:
         ev = quadratic_eigenvalues(pencil.mass, pencil.damping, -jac)
         s = ev[np.argmax(np.where(ev.imag > 0, ev.real, -np.inf))]
         _, _, vh = singular(s**2 * pencil.mass + s * pencil.damping - jac)
-        return vh[-1].conj().real
+        return oriented(vh[-1].conj()).real
     values, vectors = eigenvectors(jac if pencil.mass is None else solve(pencil.mass, jac))
     return vectors[:, np.argmax(values.real)].real
 

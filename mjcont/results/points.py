@@ -44,7 +44,7 @@ class Point:
     state : (nq,) array; a VectorField's u.
     eigenvalues : complex array, in 1/s.
     stability : "stable", "unstable" or "marginal".
-    n_unstable : number of eigenvalues with positive real part.
+    n_unstable : number of eigenvalues with positive real part; at a special point, beside those held on the axis.
     problem : the Mechanism or VectorField.
     units : mapping of name to unit, for parameters and observables.
     """

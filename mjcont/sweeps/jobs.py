@@ -68,7 +68,7 @@ def plain_point(point: SpecialPoint) -> dict[str, Any]:
 
 def point_of(plain: Mapping[str, Any], mechanism: Mechanism) -> SpecialPoint:
     """Return the special point again, on a mechanism."""
-    row = make_point(mechanism, np.array(plain["state"]), mechanism.values(plain["parameters"]))
+    row = make_point(mechanism, np.array(plain["state"]), mechanism.values(plain["parameters"]), plain["kind"])
     details = {n: plain[n] for n in _KEPT}
     return special_from_row(row, **details, free={n: (b[0], b[1]) for n, b in plain["free"].items()})
 

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from problems.fields import branch_of_brusselator, cusp
 from problems.loci import folds_of_ab, hopfs_of_ab, kinds, only
+from problems.locusfields import conic, pitchfork, tilted_cusp
 from problems.reference import ELASTIC_FOLDS
 
 import mjcont as mc
@@ -144,15 +145,6 @@ def test_the_fold_curve_of_the_cusp_normal_form_is_its_semicubical_parabola():
     assert [only(locus, "CP")[name] for name in ("mu", "la", "x")] == pytest.approx([0.0, 0.0, 0.0], abs=1e-8)
 
 
-def tilted_cusp():
-    """x' = mu + la x + e x^2 - x^3: three equal roots r = e / 3 at la = -3 r^2, mu = r^3."""
-
-    def f(u, p):
-        return [p["mu"] + p["la"] * u[0] + p["e"] * u[0] ** 2 - u[0] ** 3]
-
-    return mc.VectorField(f, [-1.2098], {"mu": -1.0, "la": 1.0, "e": 0.3}, names=["x"])
-
-
 @cache
 def curve_of_cusps():
     branch = mc.continue_equilibria(tilted_cusp(), "mu", bounds=(-2.0, 2.0))
@@ -207,16 +199,6 @@ def test_zero_hopf_points_in_three_parameters_follow_their_closed_form():
 # -- points at which a fold curve turns without a cusp ------------------------------------------------------------
 
 
-def conic(sign):
-    """x' = x^2 + sign la^2 - mu: circles about an isola centre, or hyperbolas about a crossing, at the origin."""
-
-    def f(u, p):
-        return [u[0] ** 2 + sign * p["la"] ** 2 - p["mu"]]
-
-    state, values = ([1.0], {"la": 0.0, "mu": 1.0}) if sign > 0 else ([1.4], {"la": 1.5, "mu": -0.3})
-    return mc.VectorField(f, state, values, names=["x"])
-
-
 @pytest.mark.parametrize("sign", [1.0, -1.0], ids=["isola centre", "crossing"])
 def test_a_fold_curve_has_a_branch_point_where_its_first_parameter_does_not_move_the_equation(sign):
     branch = mc.continue_equilibria(conic(sign), "la", bounds=(-2.0, 2.0))
@@ -262,13 +244,6 @@ def test_the_branch_point_of_the_pendulum_does_not_persist_when_its_spring_is_tu
     assert locus.status == "stopped"
     assert "does not persist" in locus.message
     assert np.abs(locus["rest"]).max() < 1e-3
-
-
-def pitchfork():
-    def f(u, p):
-        return [(p["mu"] + p["k"]) * u[0] - u[0] ** 3 + p["e"]]
-
-    return mc.VectorField(f, [0.0], {"mu": -1.0, "k": 0.0, "e": 0.0}, names=["x"])
 
 
 def test_the_branch_point_of_a_scalar_pitchfork_persists_where_every_derivative_vanishes():

@@ -9,25 +9,13 @@ import math
 
 import numpy as np
 import pytest
-from problems.curves import scalar
+from problems.curves import labels, scalar
 from problems.fields import ab, branch_of_ab, branch_of_cusp, cusp
+from problems.folding import circle, circle_branch, hyperbolas, imperfect, neutral_saddle, twin_waves, two_oscillations
 
 import mjcont as mc
 
-
-def labels(branch):
-    return [p.label for p in branch.special_points]
-
-
 # -- closed curves --------------------------------------------------------------------------------------------
-
-
-def circle(radius=1.0):
-    return scalar(lambda x, p: x**2 + p["la"] ** 2 - radius**2, -radius, la=0.0)
-
-
-def circle_branch(radius=1.0, **options):
-    return mc.continue_equilibria(circle(radius), "la", bounds=(-2.0, 2.0), **options)
 
 
 @pytest.mark.parametrize("radius", [1.0, 0.1, 1e-3])
@@ -70,10 +58,6 @@ def test_an_isola_entered_at_a_fold_closes_with_both_folds(label):
 GAPS = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3]
 
 
-def hyperbolas(gap, sign):
-    return scalar(lambda x, p: p["la"] ** 2 + sign * gap**2 - x**2, math.sqrt(0.81 + sign * gap**2), la=-0.9)
-
-
 @pytest.mark.parametrize("gap", GAPS)
 def test_upper_and_lower_hyperbolas_are_not_jumped_between(gap):
     branch = mc.continue_equilibria(hyperbolas(gap, 1.0), "la", bounds=(-1.0, 1.0))
@@ -91,10 +75,6 @@ def test_left_and_right_hyperbolas_are_not_jumped_between(gap):
 
 
 IMPERFECTIONS = [0.1, 0.01, 1e-3, -1e-3]
-
-
-def imperfect(eps):
-    return scalar(lambda x, p: p["mu"] * x - x**3 + eps, -eps, mu=-1.0)
 
 
 @pytest.mark.parametrize("eps", IMPERFECTIONS)
@@ -115,16 +95,6 @@ def test_the_separate_branch_of_an_imperfect_pitchfork_has_its_one_fold(eps):
     ((kind, mu),) = [(p.kind, p["mu"]) for p in branch.special_points]
     assert kind == "LP"
     assert mu == pytest.approx(3.0 * (abs(eps) / 2.0) ** (2.0 / 3.0), rel=1e-10)
-
-
-def twin_waves(gap):
-    """Return two curves x = sin(5 t) and x = sin(5 t) + gap, with sharp turns, side by side."""
-
-    def f(x, p):
-        wave = math.sin(5.0 * p["t"])
-        return -(x - wave) * (x - wave - gap)
-
-    return scalar(f, 0.0, t=0.0)
 
 
 @pytest.mark.parametrize("gap", [0.3, 0.1, 0.03, 0.01, 1e-3])
@@ -180,17 +150,6 @@ def test_no_fold_is_reported_where_a_curve_comes_close_to_one(la):
     assert labels(mc.continue_equilibria(field, "mu", bounds=(-1.0, 1.0))) == []
 
 
-def two_oscillations(apart, at):
-    """Return two oscillations that lose their damping at mu = at and at + apart, with frequencies 1 and 2."""
-
-    def f(u, p):
-        a, b, c, d = u
-        g1, g2 = p["mu"] - at - a * a - b * b, p["mu"] - at - apart - c * c - d * d
-        return [g1 * a - b, a + g1 * b, g2 * c - 2.0 * d, 2.0 * c + g2 * d]
-
-    return mc.VectorField(f, np.zeros(4), {"mu": -1.0})
-
-
 @pytest.mark.parametrize("at", [0.0, 0.111, -0.5])
 @pytest.mark.parametrize("apart", [1e-2, 1e-4])
 def test_two_hopf_points_of_different_modes_close_together_are_both_found_once(apart, at):
@@ -210,17 +169,6 @@ def test_a_mode_that_loses_its_damping_and_gains_it_back_has_two_hopf_points(apa
     branch = mc.continue_equilibria(mc.VectorField(f, [0.0, 0.0], {"mu": -1.0}), "mu", bounds=(-1.0, 1.0))
     assert [p.kind for p in branch.special_points] == ["HB", "HB"]
     assert [p["mu"] for p in branch.special_points] == pytest.approx([0.3, 0.3 + apart], abs=1e-9)
-
-
-def neutral_saddle():
-    """Return a saddle with eigenvalues 1 and -mu, mixed: their sum vanishes at mu = 1."""
-    mix = np.array([[1.0, 0.4], [-0.3, 0.8]])
-    back = np.linalg.inv(mix)
-
-    def f(u, p):
-        return mix @ (np.array([1.0, -p["mu"]]) * (back @ u))
-
-    return mc.VectorField(f, [0.0, 0.0], {"mu": 0.2})
 
 
 def test_a_neutral_saddle_is_no_hopf_point():

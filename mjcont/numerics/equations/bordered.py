@@ -13,6 +13,8 @@ from mjcont.numerics.equations.algebra import singular
 from mjcont.numerics.equations.problem import Array
 
 _TINY = 1e-300
+# part of a vector's largest component from which on another one is as large
+_AS_LARGE = 0.99
 
 
 def largest_in_rows(matrix: Any) -> Array:
@@ -120,6 +122,16 @@ def border(matrix: Any, columns: Array, rows: Array, corner: Array | None = None
     out = np.empty((m + rows.shape[0], n + columns.shape[1]))
     out[:m, :n], out[:m, n:], out[m:, :n], out[m:, n:] = matrix, columns, rows, corner
     return out
+
+
+def oriented(v: Array) -> Array:
+    """Return a vector of either sign, or any phase, turned so that the first of its largest components is positive.
+
+    Components nearly as large as the largest count as such: rounding may choose between them.
+    """
+    sizes = np.abs(v)
+    first = v[np.argmax(sizes >= _AS_LARGE * sizes.max())]
+    return v * (np.conj(first) / abs(first)) if first else v
 
 
 def null_vectors(matrix: Any, count: int = 1) -> tuple[Array, Array]:

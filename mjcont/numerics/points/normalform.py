@@ -11,6 +11,7 @@ second-order problem are those in its n positions (|v| = 1 there).
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,6 +19,7 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.equations.algebra import least_squares, singular, solve
+from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.differences import FOURTH_ORDER, combine, jacobian_from_rows, jacobian_steps, second_form
 from mjcont.numerics.equations.problem import Array, Problem, Values
 from mjcont.numerics.equations.system import Local
@@ -164,7 +166,8 @@ class Crossing:
 
     Attributes
     ----------
-    tangents : directions of the two branches, (n + 1,) each, in scaled unknowns.
+    tangents : directions of the two branches, (n + 1,) each, in scaled unknowns, the parameter growing along them; that
+        along which it moves most comes first.
     kind : "transcritical", "pitchfork" (with "supercritical" or "subcritical"), or "isola centre".
     """
 
@@ -205,8 +208,23 @@ def crossing(local: Local, kernel: Array, w: Array, slope: float) -> Crossing:
         pairs = [((-b01 + s * root) / b00, 1.0) for s in (1.0, -1.0)]
     else:
         pairs = [(1.0, (-b01 + s * root) / b11) for s in (1.0, -1.0)] if b11 else [(1.0, 0.0), (0.0, 1.0)]
-    tangents = tuple(d / np.linalg.norm(d) for d in (a * p0 + b * p1 for a, b in pairs))
-    flat = [abs(t[-1]) < 1e-4 for t in tangents]
-    return Crossing(tangents, "pitchfork" if any(flat) else "transcritical")
+    tangents = sorted((_upwards(a * p0 + b * p1) for a, b in pairs), key=_steepness)
+    return Crossing(tuple(tangents), "pitchfork" if any(_flat(t) for t in tangents) else "transcritical")
+
+
+def _flat(tangent: Array) -> bool:
+    """Whether the parameter does not move along a tangent."""
+    return bool(abs(tangent[-1]) < 1e-4)
+
+
+def _upwards(direction: Array) -> Array:
+    """Return a unit tangent along which the parameter grows; a flat one in the sense of its largest component."""
+    unit: Array = direction / np.linalg.norm(direction)
+    return oriented(unit) if _flat(unit) else math.copysign(1.0, unit[-1]) * unit
+
+
+def _steepness(tangent: Array) -> list[float]:
+    """Return what orders tangents: that along which the parameter moves most comes first. Rounded: it is no choice."""
+    return np.round(-np.append(tangent[-1], tangent), 3).tolist()
 
 

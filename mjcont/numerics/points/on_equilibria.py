@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.defining import BranchPoint, Fold, Hopf
 from mjcont.numerics.equations.newton import Corrected, solve
 from mjcont.numerics.equations.problem import Array, Values
@@ -131,8 +132,7 @@ def fold_detector(system: System, settings: Settings) -> ZeroDetector:
         f_p = c.local.par[:, 0]
         if abs(w @ f_p) <= _NOT_TRANSVERSE * (np.abs(w) @ np.abs(f_p)):
             return None
-        v = v / np.linalg.norm(v)
-        v *= 1.0 if v[np.argmax(np.abs(v))] > 0 else -1.0
+        v = oriented(v / np.linalg.norm(v))
         w = w / (w @ v) if abs(w @ v) > 1e-12 * np.linalg.norm(w) else w / np.linalg.norm(w)
         a = normalform.fold_coefficient(c.local, v, w)
         return {"a": a, "v": v, "w": w}, ""

@@ -196,15 +196,15 @@ def _sparse_spectrum(stiffness: Any) -> Spectrum:
         return _undefined(min(_NEAREST, n))
     if n <= _SMALL:
         return spectrum(Pencil(None, None, stiffness.toarray()))
-    shift = 1e-3 * size / n
+    noise, shift = 1e-12 * size, 1e-3 * size / n
     start = np.cos(np.arange(n, dtype=float))
     try:
         near = eigs(jac, k=_NEAREST, sigma=shift, v0=start, return_eigenvectors=False)
-        result = _classify(near, 1e-12 * size + 0.0 * near.real, conservative=False)
+        result = _classify(near, noise + 0.0 * near.real, conservative=False)
     except RuntimeError:  # no convergence, or exactly singular
         result = _undefined(_NEAREST)
     if abs(jac - jac.T).max() <= _SYMMETRY_NOISE * size:
-        count = _positive(jac)
+        count = _positive(jac - noise * sparse.identity(n, format="csc"))
         if count is not None:
             state = UNSTABLE if count else result.stability if result.stability == MARGINAL else STABLE
             return Spectrum(result.eigenvalues, state, count, result.noise, True)

@@ -25,8 +25,35 @@ from mjcont.numerics.spectra.spectrum import (
 )
 from mjcont.numerics.step.arclength import CurvePoint
 
+# how many eigenvalues a point of a kind holds at zero, and how many pairs on the axis, by its definition
+_HELD = {
+    "LP": (1, 0), "BP": (1, 0), "CP": (1, 0), "HB": (0, 1), "GH": (0, 1), "BT": (2, 0), "ZH": (1, 1), "HH": (0, 2),
+}
 # entries of the evaluations for derivatives that are held at a time
 _ENTRIES = 2**17
+
+
+def holds_eigenvalues(kind: str) -> bool:
+    """Whether a special point of a kind holds eigenvalues on the axis."""
+    return kind in _HELD
+
+
+def verdict_at(kind: str, s: Spectrum) -> tuple[str, int]:
+    """Return stability and number of unstable eigenvalues of a special point: marginal, and those it does not hold.
+
+    It is rounding that decides on which side of the axis the eigenvalues that it holds there are found.
+    """
+    ev = s.eigenvalues
+    zeros, pairs = _HELD[kind]
+    held = np.zeros(len(ev), dtype=bool)
+    held[np.argsort(np.abs(ev))[:zeros]] = True
+    beside = [i for i in np.argsort(np.abs(ev.real)) if ev[i].imag > 0.0 and not held[i]]
+    for i in beside[:pairs]:
+        held |= np.abs(ev - ev[i]) == 0.0
+        held |= np.abs(ev - ev[i].conj()) == 0.0
+    others = int(np.count_nonzero(ev.real[~held] > s.noise[~held]))
+    counted = s.n_unstable - int(np.count_nonzero(ev.real[held] > s.noise[held]))
+    return MARGINAL, min(s.n_unstable, max(others, counted))  # of a large problem not all eigenvalues are known
 
 
 def spectrum_of(point: CurvePoint) -> Spectrum:

@@ -16,7 +16,7 @@ import numpy as np
 from scipy import sparse
 from scipy.optimize import brentq
 
-from mjcont.numerics.equations.bordered import Factored, border, null_vectors
+from mjcont.numerics.equations.bordered import Factored, border, null_vectors, oriented
 from mjcont.numerics.equations.newton import Corrected, correct, length, undefined, with_row
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import Settings
@@ -126,8 +126,12 @@ def first_point(
     c = correct(system, x, y, row, None, settings)
     if c.failure:
         return c.failure
-    component = tangent[lead] if abs(tangent[lead]) > _AT_FOLD else tangent[np.argmax(np.abs(tangent))]
-    return point_from(c, tangent if component * direction > 0 else -tangent, 0.0)
+    at_fold = abs(tangent[lead]) <= _AT_FOLD
+    upwards = oriented(tangent) if at_fold else math.copysign(1.0, tangent[lead]) * tangent
+    first = point_from(c, upwards if direction > 0 else -upwards, 0.0)
+    if at_fold:  # on the fold as far as can be told: it belongs to both directions, whatever the sign of the noise
+        first.tangent[lead] = 0.0
+    return first
 
 
 def tangent_at(system: System, local: Local, y: Array) -> Array:

@@ -1,0 +1,138 @@
+"""The shipped studies and the curves of the paper's figures, as they are followed under noise.
+
+The figures' own functions compute the curves; drawing and motions in time, which take most of a figure's time, are
+left out. Of figure 8 the branches through the first fold's curve are computed, and at the larger stiffnesses those
+through the poses; of figures 14 and 15 the magnified cusp is left out, which is that of figure 12 at another load.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import mjcont as mc
+from mjcont.paper.reproduce import scripts_folder
+from problems.shaken_problems import Job
+
+sys.path.insert(0, str(scripts_folder()))
+_gear, *_figures = (
+    importlib.import_module(name)
+    for name in ("_gear", "fig02", "fig03", "fig04", "fig05", "fig07", "fig08", "fig10", "fig15")
+)
+fig02, fig03, fig04, fig05, fig07, fig08, fig10, fig15 = _figures
+STUDIES = Path(__file__).parent.parent.parent / "studies"
+SWEPT = 3
+
+
+def _study(path: Path) -> list[Any]:
+    study = mc.load_study(path)
+    with tempfile.TemporaryDirectory() as folder:
+        results = mc.run_study(replace(study, plots=()), folder)
+        swept = [mc.sweep(study, out=folder, limit=SWEPT, workers=1)] if study.sweep is not None else []
+    return [*results, *swept]
+
+
+def _overcentre() -> mc.Mechanism:
+    return mc.Mechanism.from_xml("overcentre")
+
+
+def _gear_model() -> mc.Mechanism:
+    return mc.Mechanism.from_xml("nose_gear")
+
+
+def _full_gear() -> mc.Mechanism:
+    return mc.Mechanism.from_xml("nose_gear_full")
+
+
+def _fig03() -> list[mc.Branch]:
+    return [fig02.equilibria(_overcentre(), c) for c in fig03.DAMPING]
+
+
+def _fig04() -> list[Any]:
+    branches = [fig04._branch(_overcentre(), k) for k in fig04.STIFFNESS]
+    study = partial(mc.stiffness_study, _overcentre(), parameter="k_j", tol=0.01, bounds=fig04.SPAN)
+    return [branches, [study(branches[-1].point(label), quantity="F") for label in fig04.FOLDS]]
+
+
+def _fig06() -> Any:
+    return mc.bifurcation_diagram(
+        _full_gear(), "F_ret", (0, 60), {"F_ret": 20.0}, keyframes=["uplock_above", "uplock_below"]
+    )
+
+
+def _fig08() -> list[Any]:
+    """Return the folds with stiff joints, their curves in stiffness, and the branches that meet the first at 1e4."""
+    gear, soft = _full_gear(), fig08.STIFFNESS[0]
+    folds = fig08.stiff_folds(gear)
+    loci = [mc.continue_special(p, "k_j", fig08.SPAN, zeros={"k_j": soft}) for p in folds]
+    starts = loci[0].of_kind("UZ")
+    return [folds, loci, mc.bifurcation_diagram(gear, "F_ret", fig08.BOUNDS, starts, zeros={"theta_ov": 0.0})]
+
+
+def _fig08_stiff(k_j: float) -> Any:
+    start = {"F_ret": 20.0, "k_j": k_j}
+    return mc.bifurcation_diagram(_full_gear(), "F_ret", fig08.BOUNDS, start, keyframes=fig08.KEYFRAMES)
+
+
+def _fig09() -> list[Any]:
+    gear = _gear_model()
+    branch = mc.continue_equilibria(gear, "F_ret", (3e5, 8e5), {"F_ret": 4e5}, keyframe="uplock_above")
+    return [branch, mc.stiffness_study(gear, branch.point("LP1"), "k_j", 1e-3)]
+
+
+def _fig10() -> Any:
+    gear = _gear_model()
+    return mc.bifurcation_diagram(gear, "F_ret", fig10.BOUNDS, fig10._starts(gear), ds_max=fig10.DS_MAX)
+
+
+def _load_slice(load_factor: float, degrees: float, f_ul: float) -> list[mc.Branch]:
+    found = _gear.Slice.of(_gear_model(), _gear.load_case(load_factor, degrees, f_ul))
+    return list(found.branches)
+
+
+def _load_case(load_factor: float, degrees: float) -> list[Any]:
+    case = _gear.Case.of(_gear_model(), load_factor, degrees)
+    return [case.fold, case.locus]
+
+
+def _near_cusp() -> mc.Branch:
+    gear = _gear_model()
+    return _gear.near_cusp(gear, _gear.Case.of(gear, 1.0, 0.0))
+
+
+def _cusps(load_factor: float) -> mc.Branch:
+    return fig15._cusps(_gear.Case.of(_gear_model(), load_factor, 0.0))
+
+
+def _papers() -> Iterator[tuple[str, Job]]:
+    yield "figures 2 and 3", _fig03
+    yield "figure 4", _fig04
+    yield "figure 5", lambda: [fig05._branch(_overcentre(), k) for k in (1e2, 1e6)]
+    yield "figure 6", _fig06
+    for c_j in fig07.DAMPING:
+        yield f"figure 7, c_j = {c_j:g}", lambda c=c_j: fig07._branches(_full_gear(), c)
+    yield "figure 8", _fig08
+    for k_j in fig08.STIFFNESS[1:]:
+        yield f"figure 8, k_j = {k_j:g}", partial(_fig08_stiff, k_j)
+    yield "figure 9", _fig09
+    yield "figure 10", _fig10
+    for f_ul in (0.0, _gear.UNLOCK):
+        for degrees in _gear.ANGLES:
+            yield f"figure 11, {degrees:g} deg, {f_ul:g} N", partial(_load_slice, 1.0, degrees, f_ul)
+    for n in (0.5, 2.5):
+        yield f"figure 13, {n:g} g", partial(_load_slice, n, 0.0, 0.0)
+    for n in _gear.LOAD_FACTORS:
+        for degrees in _gear.ANGLES:
+            yield f"figures 12, 14, 15: {n:g} g, {degrees:g} deg", partial(_load_case, n, degrees)
+        yield f"figure 15, cusps at {n:g} g", partial(_cusps, n)
+    yield "figure 12, magnified", _near_cusp
+
+
+PAPER: dict[str, Job] = dict(_papers())
+SHIPPED: dict[str, Job] = {path.stem: partial(_study, path) for path in sorted(STUDIES.glob("*.toml"))}
