@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from test_stepper import labels, scalar
+from problems.curves import labels, scalar
 
 import mjcont as mc
 

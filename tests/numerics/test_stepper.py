@@ -9,15 +9,10 @@ import math
 
 import numpy as np
 import pytest
-from problems.curves import scalar
+from problems.curves import labels, scalar
 from problems.fields import ab, branch_of_ab, branch_of_cusp, cusp
 
 import mjcont as mc
-
-
-def labels(branch):
-    return [p.label for p in branch.special_points]
-
 
 # -- closed curves --------------------------------------------------------------------------------------------
 
