@@ -86,13 +86,7 @@ class Local:
     __slots__ = ("_jac", "_lin", "_pencil", "_residual", "accurate", "problem", "ranges", "values", "wrt", "x")
 
     def __init__(
-        self,
-        problem: Problem,
-        x: Array,
-        values: Values,
-        wrt: Sequence[str],
-        accurate: bool,
-        ranges: Ranges = (),
+        self, problem: Problem, x: Array, values: Values, wrt: Sequence[str], accurate: bool, ranges: Ranges = ()
     ) -> None:
         self.problem, self.x, self.values, self.wrt, self.accurate = problem, x, values, wrt, accurate
         self.ranges = ranges
