@@ -264,9 +264,26 @@ def test_a_start_at_the_very_edge_is_an_error_that_says_why():
         spec.geom("rod").size[0] = RADIUS * (1.0 + math.sqrt(value))
 
     mechanism = rod("")
-    mechanism.declare("width", function=widen, value=0.0, bounds=(0.0, 1.0))
+    mechanism.declare("width", function=widen, value=0.0, bounds=(-0.5, 1.0))
     with pytest.raises(mc.StartError, match="the function of 'width' has no value at width = -"):
         mc.continue_equilibria(mechanism, "width")
+
+
+def test_a_function_is_not_asked_for_values_beyond_the_bounds():
+    asked = []
+
+    def widen(spec, value):
+        asked.append(value)
+        spec.geom("rod").size[0] = RADIUS * (1.0 + math.sqrt(value) ** 3)
+
+    mechanism = rod("")
+    mechanism.declare("width", function=widen, value=0.0, bounds=(0.0, 1.0))
+    del asked[:]  # a trial on both sides, when it was declared
+    branch = mc.continue_equilibria(mechanism, "width")
+    assert branch.status == "at bound"
+    assert sorted(branch["width"][[0, -1]]) == pytest.approx([0.0, 1.0])
+    assert min(asked) >= 0.0
+    assert max(asked) <= 1.0
 
 
 def test_a_branch_that_meets_the_edge_of_a_function_ends_there_with_a_sentence():
