@@ -153,18 +153,19 @@ def tangent_at(system: System, local: Local, y: Array) -> Array:
     return np.full(size, np.nan) if best is None else best / np.linalg.norm(best)
 
 
-def predict(point: CurvePoint, h: float) -> Array:
+def predict(point: CurvePoint, h: float, *, steady: bool = False) -> Array:
     """Return the scaled step to the point h ahead on Hermite's polynomial through the last points and their tangents.
 
     With bushes of stiffness k a prediction that opens the pins by d loads them with k d, so a high order is what
-    allows long steps with stiff joints.
+    allows long steps with stiff joints. Where it swings, so far that the tangent would be left by half of h, `steady`
+    takes fewer points; without, a corner is ahead, which the corrector is to see.
     """
     past, straight = _apart(point, h), h * point.tangent
     while past:
         values, slopes = hermite([0.0, *(e.s - point.s for e in past)], h)
         steps, tangents = (e.step for e in past), (e.tangent for e in past)
         step = combine([*slopes, *values[1:]], [point.tangent, *tangents, *steps])
-        if length(step - straight) <= _WANDER * abs(h):  # else the polynomial swings: it goes through too many points
+        if not steady or length(step - straight) <= _WANDER * abs(h):
             return step
         past = past[:-1]
     return straight
@@ -196,7 +197,9 @@ def remembered(point: CurvePoint, step: Array) -> tuple[Earlier, ...]:
     return (Earlier(point.s, -step, point.tangent, point.jac), *older)
 
 
-def aim(system: System, point: CurvePoint, h: float, prediction: Array) -> tuple[int, float, float] | None:
+def aim(
+    system: System, point: CurvePoint, h: float, prediction: Array, *, steady: bool
+) -> tuple[int, float, float] | None:
     """Return where the prediction of a step h leaves the bounds of a free parameter, None where it does not.
 
     That is the index in y, the bound as a coordinate, and how far ahead it is met: a little more than h where the step
@@ -208,7 +211,7 @@ def aim(system: System, point: CurvePoint, h: float, prediction: Array) -> tuple
         bound = float(system.lowest[i] if ahead[i] < system.lowest[i] else system.highest[i])
 
         def missing(t: float, i: int = i, bound: float = bound) -> float:
-            return float(point.y[i] + predict(point, t)[system.n + i]) - bound
+            return float(point.y[i] + predict(point, t, steady=steady)[system.n + i]) - bound
 
         at_start, at_end = missing(0.0), missing(reach)
         if at_start == 0.0 or at_start * at_end < 0.0:
@@ -375,14 +378,15 @@ def land(
     settings: Settings,
     *,
     fresh: bool = False,
+    steady: bool = False,
 ) -> CurvePoint | str:
     """Return the point about h ahead at which y[index] = target, or a sentence that says why it is not met there.
 
-    `fresh` as in `advance`.
+    `fresh` as in `advance`, `steady` as in `predict`.
     """
     row = np.zeros(system.n + system.k)
     row[system.n + index] = 1.0
-    prediction = system.admissible(point.x, predict(point, h))
+    prediction = system.admissible(point.x, predict(point, h, steady=steady))
     x, y = system.move(point.x, point.y, prediction)
     y[index] = target
     extrapolated = not (fresh or system.conditions or sparse.issparse(point.jac))

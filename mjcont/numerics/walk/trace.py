@@ -240,10 +240,10 @@ class Walker:
         """Return a step of length h, or why it is refused and the length to try instead."""
         settings = self.long.limits(h) if self.long is not None else self.settings
         far = h > self.settings.ds_max
-        prediction = predict(point, h)
-        aimed = aim(self.system, point, h, prediction)
+        prediction = predict(point, h, steady=far)
+        aimed = aim(self.system, point, h, prediction, steady=far)
         if aimed is not None:
-            return self._landed(point, h, *aimed)
+            return self._landed(point, h, far, *aimed)
         new = advance(self.system, point, h, settings, fresh=self._fresh and not far, prediction=prediction)
         if isinstance(new, str) and far:
             new = advance(self.system, point, h, settings, fresh=True, prediction=prediction)
@@ -253,12 +253,14 @@ class Walker:
             return new, shorter
         return Leap(point, new, h, None)
 
-    def _landed(self, point: CurvePoint, h: float, index: int, bound: float, ahead: float) -> Leap | tuple[str, float]:
+    def _landed(
+        self, point: CurvePoint, h: float, far: bool, index: int, bound: float, ahead: float
+    ) -> Leap | tuple[str, float]:
         """Return the step that ends on a bound which its prediction meets, or why not and the length to try instead."""
         settings = self.long.limits(h) if self.long is not None else self.settings
-        landed = land(self.system, point, index, bound, ahead, settings, fresh=self._fresh)
+        landed = land(self.system, point, index, bound, ahead, settings, fresh=self._fresh, steady=far)
         if isinstance(landed, str) and not self._fresh:
-            landed = land(self.system, point, index, bound, ahead, settings, fresh=True)
+            landed = land(self.system, point, index, bound, ahead, settings, fresh=True, steady=far)
         if isinstance(landed, str):
             return landed, 0.4 * min(h, max(ahead, 0.1 * h))
         p = self.system.free[index]
