@@ -115,9 +115,10 @@ def test_derivatives_by_differences_have_the_noise_over_the_step(stiff):
 
 
 def test_elimination_sizes_are_those_of_the_factors():
-    matrix = np.random.default_rng(1).normal(size=(3, 6, 6))
-    expected = np.array([p @ (np.abs(low) @ np.abs(up)) for p, low, up in map(scipy.linalg.lu, matrix)])
-    assert elimination_size(matrix) == pytest.approx(expected, rel=1e-12)
+    matrices = np.random.default_rng(1).normal(size=(3, 6, 6))
+    expected = np.array([p @ (np.abs(low) @ np.abs(up)) for p, low, up in map(scipy.linalg.lu, matrices)])
+    assert elimination_size(matrices) == pytest.approx(expected, rel=1e-12)
+    assert np.array([elimination_size(m) for m in matrices]) == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize("dense", [True, False])

@@ -203,6 +203,9 @@ def _mechanisms() -> Iterator[tuple[str, Job]]:
             _mechanism, "overcentre", "F", -50.0, 60.0, {"F": 50.0, "k_j": k_j}
         )
     yield "overcentre, folds in stiffness", _overcentre_folds
+    yield "overcentre, energy barrier", lambda: mc.energy_barrier(
+        mc.find_equilibrium(mc.Mechanism.from_xml("overcentre"), {"F": 20.0})
+    )
     yield "overcentre tree", partial(_mechanism, "overcentre_tree", "F", -50.0, 60.0, {"F": 50.0})
     yield "truss", _truss
     yield "column, whole diagram", lambda: mc.bifurcation_diagram(

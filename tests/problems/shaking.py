@@ -24,6 +24,7 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
+import scipy.linalg
 from scipy import sparse
 from scipy.linalg import lapack
 
@@ -142,24 +143,27 @@ def _shake_fields(patch: pytest.MonkeyPatch, noise: Noise) -> None:
 
 
 def elimination_size(matrices: Array) -> Array:
-    """Return |L||U| of matrices (..., n, n) by elimination with partial pivoting, in the order of their rows."""
-    left, size = np.array(matrices), np.zeros(np.shape(matrices))
-    stacked, out = left.reshape(-1, *left.shape[-2:]), size.reshape(-1, *left.shape[-2:])
-    every = np.arange(len(stacked))
-    waiting = np.ones(stacked.shape[:2], dtype=bool)
-    for k in range(stacked.shape[-1]):
-        column = np.where(waiting, np.abs(stacked[:, :, k]), -1.0)
+    """Return |L||U| of matrices (..., n, n), their rows in order, by elimination with partial pivoting."""
+    if matrices.ndim == 2:
+        order, lower, upper = scipy.linalg.lu(matrices, p_indices=True, check_finite=False)
+        return (np.abs(lower) @ np.abs(upper))[order]
+    left, size = np.array(matrices), np.zeros(matrices.shape)
+    every, waiting = np.arange(len(left)), np.ones(left.shape[:2], dtype=bool)
+    for k in range(left.shape[-1]):
+        column = np.where(waiting, np.abs(left[:, :, k]), -1.0)
         pivot = column.argmax(axis=1)
-        row, top = stacked[every, pivot], column[every, pivot]
-        factors = np.where(waiting, stacked[:, :, k], 0.0) / np.where(top > 0.0, row[:, k], 1.0)[:, None]
-        out += np.abs(factors)[:, :, None] * np.abs(row)[:, None, :]
+        row, top = left[every, pivot], column[every, pivot]
+        factors = np.where(waiting, left[:, :, k], 0.0) / np.where(top > 0.0, row[:, k], 1.0)[:, None]
+        size += np.abs(factors)[:, :, None] * np.abs(row)[:, None, :]
         waiting[every, pivot] = False
         factors[every, pivot] = 0.0
-        stacked -= factors[:, :, None] * row[:, None, :]
+        left -= factors[:, :, None] * row[:, None, :]
     return size
 
 
 def _in_elimination(noise: Noise, matrix: Array) -> Array:
+    if not matrix.size or matrix.shape[-1] != matrix.shape[-2]:
+        return matrix  # refused by the solver, which says so
     with np.errstate(all="ignore"):
         return noise.off(matrix, elimination_size(matrix))
 

@@ -155,7 +155,7 @@ def _other(result: Any, name: str) -> Iterator[tuple[str, str | Number]]:
         yield f"{name} finite", str(math.isfinite(result))
     else:
         fields = {n: getattr(result, n) for n in ("status", "verdict", "active", "limit", "derivatives", "points",
-                                                  "locus", "checks") if hasattr(result, n)}
+                                                  "locus", "checks", "saddle") if hasattr(result, n)}
         yield name, type(result).__name__
         for n, value in fields.items():
             yield from _marks(dict(value) if isinstance(value, Mapping) else value, f"{name} {n}")
