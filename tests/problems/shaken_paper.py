@@ -21,11 +21,11 @@ from mjcont.paper.reproduce import scripts_folder
 from problems.shaken_problems import Job
 
 sys.path.insert(0, str(scripts_folder()))
-_gear, *_figures = (
+_overcentre, _gear, _loci, *_figures = (
     importlib.import_module(name)
-    for name in ("_gear", "fig02", "fig03", "fig04", "fig05", "fig07", "fig08", "fig10", "fig15")
+    for name in ("_overcentre", "_gear", "_loci", "fig03", "fig04", "fig07", "fig08", "fig10", "fig15")
 )
-fig02, fig03, fig04, fig05, fig07, fig08, fig10, fig15 = _figures
+fig03, fig04, fig07, fig08, fig10, fig15 = _figures
 STUDIES = Path(__file__).parent.parent.parent / "studies"
 SWEPT = 3
 
@@ -40,26 +40,27 @@ def _study(path: Path) -> list[Any]:
     return [*results, *swept]
 
 
-def _overcentre() -> mc.Mechanism:
-    return mc.Mechanism.from_xml("overcentre")
-
-
-def _gear_model() -> mc.Mechanism:
-    return mc.Mechanism.from_xml("nose_gear")
+def _gear_model(name: str = _gear.FIRST) -> mc.Mechanism:
+    return mc.Mechanism.from_xml(name)
 
 
 def _full_gear() -> mc.Mechanism:
     return mc.Mechanism.from_xml("nose_gear_full")
 
 
+def _at_stiffness(k_j: float) -> mc.Branch:
+    return _overcentre.equilibria(_overcentre.overcentre(), k_j=k_j)
+
+
 def _fig03() -> list[mc.Branch]:
-    return [fig02.equilibria(_overcentre(), c) for c in fig03.DAMPING]
+    return [_overcentre.equilibria(_overcentre.overcentre(), ds_max=0.03, c_sp=c) for c in fig03.DAMPING]
 
 
 def _fig04() -> list[Any]:
-    branches = [fig04._branch(_overcentre(), k) for k in fig04.STIFFNESS]
-    study = partial(mc.stiffness_study, _overcentre(), parameter="k_j", tol=0.01, bounds=fig04.SPAN)
-    return [branches, [study(branches[-1].point(label), quantity="F") for label in fig04.FOLDS]]
+    branches = [_at_stiffness(k) for k in fig04.STIFFNESS]
+    stiff = branches[-1]
+    study = partial(mc.stiffness_study, stiff.problem, parameter="k_j", tol=0.01, bounds=fig04.SPAN, ds_max=0.02)
+    return [branches, [study(stiff.point(label), quantity="F") for label in _overcentre.FOLDS]]
 
 
 def _fig06() -> Any:
@@ -93,29 +94,29 @@ def _fig10() -> Any:
     return mc.bifurcation_diagram(gear, "F_ret", fig10.BOUNDS, fig10._starts(gear), ds_max=fig10.DS_MAX)
 
 
-def _load_slice(load_factor: float, degrees: float, f_ul: float) -> list[mc.Branch]:
-    found = _gear.Slice.of(_gear_model(), _gear.load_case(load_factor, degrees, f_ul))
+def _load_slice(name: str, load_factor: float, degrees: float, f_ul: float) -> list[mc.Branch]:
+    found = _gear.Slice.of(_gear_model(name), _gear.load_case(load_factor, degrees, f_ul))
     return list(found.branches)
 
 
-def _load_case(load_factor: float, degrees: float) -> list[Any]:
-    case = _gear.Case.of(_gear_model(), load_factor, degrees)
+def _load_case(name: str, load_factor: float, degrees: float) -> list[Any]:
+    case = _loci.Case.of(_gear_model(name), load_factor, degrees)
     return [case.fold, case.locus]
 
 
 def _near_cusp() -> mc.Branch:
     gear = _gear_model()
-    return _gear.near_cusp(gear, _gear.Case.of(gear, 1.0, 0.0))
+    return _loci.near_cusp(gear, _loci.Case.of(gear, 1.0, 0.0))
 
 
 def _cusps(load_factor: float) -> mc.Branch:
-    return fig15._cusps(_gear.Case.of(_gear_model(), load_factor, 0.0))
+    return fig15._cusps(_loci.Case.of(_gear_model(), load_factor, 0.0))
 
 
 def _papers() -> Iterator[tuple[str, Job]]:
     yield "figures 2 and 3", _fig03
     yield "figure 4", _fig04
-    yield "figure 5", lambda: [fig05._branch(_overcentre(), k) for k in (1e2, 1e6)]
+    yield "figure 5", lambda: [_at_stiffness(k) for k in (1e2, 1e6)]
     yield "figure 6", _fig06
     for c_j in fig07.DAMPING:
         yield f"figure 7, c_j = {c_j:g}", lambda c=c_j: fig07._branches(_full_gear(), c)
@@ -124,16 +125,23 @@ def _papers() -> Iterator[tuple[str, Job]]:
         yield f"figure 8, k_j = {k_j:g}", partial(_fig08_stiff, k_j)
     yield "figure 9", _fig09
     yield "figure 10", _fig10
+    for gear in (_gear.FIRST, _gear.LOCKING):
+        yield from _loaded(gear, "" if gear == _gear.FIRST else ", the gear that locks")
+    yield "figure 12, magnified", _near_cusp
+
+
+def _loaded(gear: str, of: str) -> Iterator[tuple[str, Job]]:
+    """Yield the curves of a gear under its load cases."""
     for f_ul in (0.0, _gear.UNLOCK):
         for degrees in _gear.ANGLES:
-            yield f"figure 11, {degrees:g} deg, {f_ul:g} N", partial(_load_slice, 1.0, degrees, f_ul)
+            yield f"figure 11, {degrees:g} deg, {f_ul:g} N{of}", partial(_load_slice, gear, 1.0, degrees, f_ul)
     for n in (0.5, 2.5):
-        yield f"figure 13, {n:g} g", partial(_load_slice, n, 0.0, 0.0)
+        yield f"figure 13, {n:g} g{of}", partial(_load_slice, gear, n, 0.0, 0.0)
     for n in _gear.LOAD_FACTORS:
         for degrees in _gear.ANGLES:
-            yield f"figures 12, 14, 15: {n:g} g, {degrees:g} deg", partial(_load_case, n, degrees)
-        yield f"figure 15, cusps at {n:g} g", partial(_cusps, n)
-    yield "figure 12, magnified", _near_cusp
+            yield f"figures 12, 14, 15: {n:g} g, {degrees:g} deg{of}", partial(_load_case, gear, n, degrees)
+        if not of:
+            yield f"figure 15, cusps at {n:g} g", partial(_cusps, n)
 
 
 PAPER: dict[str, Job] = dict(_papers())
