@@ -43,13 +43,19 @@ def shipped_models() -> list[str]:
     return sorted(p.stem for p in models_folder().glob("*.xml"))
 
 
+def located(source: str | Path) -> Path:
+    """Return the file of a path or of a shipped model's name, whether there is one or not."""
+    path = Path(source)
+    if not path.is_file() and path.parent == Path() and not path.suffix:
+        return models_folder() / f"{path.name}.xml"
+    return path
+
+
 def read_source(source: str | Path) -> tuple[str, Path | None]:
     """Return the XML text of a path, of a shipped model's name, or of text itself, and its folder."""
     if isinstance(source, str) and source.lstrip().startswith("<"):
         return source, None
-    path = Path(source)
-    if not path.is_file() and path.parent == Path() and not path.suffix:
-        path = models_folder() / f"{path.name}.xml"
+    path = located(source)
     if not path.is_file():
         shipped = ", ".join(shipped_models()) or "none"
         what = "is a folder, not a file" if Path(source).is_dir() else "no such file"
@@ -89,7 +95,7 @@ def load(source: str | Path) -> tuple[mujoco.MjModel, str, tuple[str, ...], Geom
     text, folder = read_source(source)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        spec = parse(text, folder, "XML text" if folder is None else str(source))
+        spec = parse(text, folder, "XML text" if folder is None else str(located(source)))
         place = (folder or Path()).resolve()
         notes, dropped = assets.read_notes(spec), assets.drop_missing(spec, place)
         rewritten = assets.anchor_files(spec, place) or bool(dropped) or bool(_OTHER_FILES.search(text))
@@ -143,15 +149,16 @@ def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     Its integrator is one for which qacc is the forward-dynamics acceleration, its solver is not cut short for speed,
     sensors are off, and controls are never clamped (bounds outside a ctrlrange are refused before). Controls have
     reached their actuators, and dry friction is off. `model` itself, which observables are read from, loses what delays
-    controls and filters sensors.
+    controls and filters sensors; forces are read with such an integrator, too.
     """
     model.actuator_delay[:] = 0.0
+    discrete = model.opt.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     private = copy_model(model)
     # time histories with "discrete" clamp no equality's time constant, those with other integrators do
     if np.any((model.eq_solref[:, 0] > 0) & (model.eq_solref[:, 0] < 2.0 * model.opt.timestep)):
-        if model.opt.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE:
+        if discrete:
             private.opt.disableflags |= int(_DISABLE.mjDSBL_REFSAFE)
-    private.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     private.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
     private.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # sparse constraint Jacobians are wrong in MuJoCo 4.0.0
     private.opt.disableflags |= int(_DISABLE.mjDSBL_SENSOR) | int(_DISABLE.mjDSBL_CLAMPCTRL)
