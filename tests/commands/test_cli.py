@@ -393,4 +393,4 @@ def test_a_result_that_is_missing_or_not_hdf5_says_so(fails: Fails, here: Path, 
 
 def test_an_unknown_figure_lists_those_there_are(fails: Fails) -> None:
     assert "unknown figure 999. Valid: 1, 2" in fails("reproduce", "999")
-    assert "unknown figure or study 'unlock'. Did you mean unlocking?" in fails("report", "--only", "unlock")
+    assert "unknown figure or study 'unlock'. Did you mean unlocking or locking?" in fails("report", "--only", "unlock")

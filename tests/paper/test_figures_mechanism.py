@@ -42,7 +42,12 @@ def script(figure):
 
 @pytest.mark.parametrize(
     ("figure", "holding"),
-    [(2, [True] * 5), (4, [True] * 5), (7, [True] * 4), (8, [True] * 5)],
+    [
+        pytest.param(2, [True] * 5, marks=pytest.mark.long),
+        (4, [True] * 5),
+        (7, [True] * 4),
+        pytest.param(8, [True] * 5, marks=pytest.mark.long),
+    ],
 )
 def test_findings_of_the_mechanism_figures(figure, holding, tmp_path):
     findings = script(figure).main(tmp_path)

@@ -54,6 +54,7 @@ def test_stiffer_bushes_bring_the_unlock_force_to_that_of_rigid_pins():
     assert apart[2] < 0.15 * apart[1]
 
 
+@pytest.mark.long
 def test_findings_of_the_load_map_on_a_coarse_grid():
     study = load_script(scripts_folder() / "load_map.py")
     findings = study.findings(study.compute(5, 3))
