@@ -19,8 +19,8 @@ from mjcont.numerics.points.on_equilibria import zero_detector
 from mjcont.numerics.points.on_loci import conditions_of, fold_locus_detectors, hopf_locus_detectors, unfolding_stop
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
+from mjcont.results.model import check_bounds, model_of
 from mjcont.results.points import KIND_NAMES, SpecialPoint, show
-from mjcont.results.quantities import check_bounds
 
 CONTINUABLE = ("LP", "HB", "BP", "CP", "BT", "ZH")
 _NAMES = {"LP": "fold", "HB": "Hopf", "BP": "branch-point", "CP": "cusp", "BT": "Bogdanov-Takens", "ZH": "zero-Hopf"}
@@ -100,8 +100,7 @@ def _continued_as(point: SpecialPoint) -> str:
         raise MjcontError(
             f"a point of kind {point.kind or 'regular'} has no curve to follow. Valid kinds: {', '.join(CONTINUABLE)}."
         )
-    if point.problem is None:
-        raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
+    model_of(point.problem)
     return kind
 
 
@@ -133,7 +132,7 @@ def free_parameters(
     point: SpecialPoint, parameter: str, bounds: tuple[float, float] | Mapping[str, tuple[float, float]] | None
 ) -> list[Free]:
     """Return the parameters of the point's curve and the new one, each with its bounds."""
-    problem: Any = point.problem
+    problem = point.model
     given = dict(bounds) if isinstance(bounds, Mapping) else ({} if bounds is None else {parameter: bounds})
     if parameter in point.free:
         raise ParameterError(f"{parameter} is already free on the curve of {point.label}: name another parameter")
@@ -156,13 +155,13 @@ def free_parameters(
 
 def locus_system(point: SpecialPoint, kind: str, free: Sequence[Free]) -> System:
     """Return the system whose solutions are the curve through a special point."""
-    problem: Any = point.problem
+    problem = point.model
     values = problem.values(point.parameters)
-    problem, _ = hold_rigid_modes(problem, point.state, values)
-    plain = System(problem, values, free)
-    local = Local(problem, point.state, values, plain.names, True, plain.ranges)
+    held, _ = hold_rigid_modes(problem, point.state, values)
+    plain = System(held, values, free)
+    local = Local(held, point.state, values, plain.names, True, plain.ranges)
     square = float(point.coefficients["omega"]) ** 2 if "omega" in point.coefficients else None
-    return System(problem, values, free, conditions_of(kind, local, plain, square), accurate=True)
+    return System(held, values, free, conditions_of(kind, local, plain, square), accurate=True)
 
 
 def locus_detectors(
@@ -175,7 +174,8 @@ def locus_detectors(
     elif kind == "HB":
         found += hopf_locus_detectors(system, system.conditions[0], settings, lyapunov=lyapunov)  # type: ignore[arg-type]
     for name, value in zeros.items():
-        found.append(zero_detector(system, monitor_of(system.problem, name, value), f"{name} = {value:g}", settings))
+        monitor = monitor_of(model_of(system.problem), name, value)
+        found.append(zero_detector(system, monitor, f"{name} = {value:g}", settings))
     return found
 
 

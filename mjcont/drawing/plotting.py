@@ -340,7 +340,7 @@ def _unit(branch: Branch, name: str) -> str:
     """Return the unit of a column, also of a parameter that the branch holds fixed."""
     if name in branch.columns or branch.problem is None:
         return branch.units.get(name, "")
-    return str(branch.problem.parameter(name).unit)
+    return str(branch.model.parameter(name).unit)
 
 
 def _column(branch: Branch, name: str, degrees: bool) -> Array:

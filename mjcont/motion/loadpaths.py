@@ -303,14 +303,14 @@ def _cut(branch: Branch, forward: int, target: float, name: str) -> tuple[Branch
         return branch, None
     at = int(order[last])
     before = int(order[max(last - 1, 0)])
-    travel = branch.problem.difference(branch.states[at], branch.states[before])
+    travel = branch.model.difference(branch.states[at], branch.states[before])
     point: Point = special.get(at, branch.row(at))
     kind = point.kind if isinstance(point, SpecialPoint) else "lost"
     if kind == "CO":
-        along = branch.problem.difference(branch.states[int(order[last + 1])], branch.states[at])
+        along = branch.model.difference(branch.states[int(order[last + 1])], branch.states[at])
     else:
-        along = _critical(branch.problem, point, kind, travel)
-    along = along * _ASIDE / max(float(np.max(np.abs(along) / branch.problem.state_scale)), 1e-300)
+        along = _critical(branch.model, point, kind, travel)
+    along = along * _ASIDE / max(float(np.max(np.abs(along) / branch.model.state_scale)), 1e-300)
     cut = sliced(branch, *sorted((int(order[0]), at)))
     return replace(cut, ends=[(status, sentence)]), _Lost(point, kind, along)
 

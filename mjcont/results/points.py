@@ -9,6 +9,7 @@ from typing import Any
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
+from mjcont.results.model import Model, model_of
 
 KIND_NAMES = {
     "LP": "fold",
@@ -55,7 +56,7 @@ class Point:
     eigenvalues: Array
     stability: str
     n_unstable: int
-    problem: Any = field(repr=False)
+    problem: Model | None = field(repr=False)
     units: Mapping[str, str] = field(repr=False, default_factory=dict)
 
     def __getitem__(self, name: str) -> float:
@@ -65,6 +66,11 @@ class Point:
         if name in self.observables:
             return self.observables[name]
         raise unknown_name("parameter or observable", name, [*self.parameters, *self.observables])
+
+    @property
+    def model(self) -> Model:
+        """The problem; an MjcontError where the point was loaded from a file without it."""
+        return model_of(self.problem, "the point")
 
     def __str__(self) -> str:
         """Return stability and observables."""

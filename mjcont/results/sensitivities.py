@@ -171,7 +171,7 @@ def headline(s: Sensitivities) -> str:
     p = s.point
     name = f"{p.label} ({KIND_NAMES.get(p.kind, p.kind)})" if isinstance(p, SpecialPoint) and p.kind else "equilibrium"
     shown = ", ".join(f"{q} = {show(s.values[q], s.units[q])}" for q in s.quantities)
-    return f"{name} of {p.problem.name}: {shown}; {s.evaluations} evaluations"
+    return f"{name} of {p.model.name}: {shown}; {s.evaluations} evaluations"
 
 
 def _slope(s: Sensitivities, i: int, j: int) -> str:

@@ -10,8 +10,8 @@ from mjcont.curves.loci import CONTINUABLE
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.motion.loadpaths import LANDINGS
 from mjcont.motion.stepping import INTEGRATORS
+from mjcont.results.model import check_bounds, units
 from mjcont.results.points import show
-from mjcont.results.quantities import check_bounds, units
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
 from mjcont.studies.keys import Context, Key, Kind

@@ -9,15 +9,16 @@ solutions form a curve; with as many, a special point. Unknowns are scaled throu
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.equations.bordered import border, largest_in_rows
-from mjcont.numerics.equations.problem import Array, Pencil, Problem, Ranges, Values
+from mjcont.numerics.equations.problem import Array, Equations, Linearization, Pencil, Ranges, Values
 
 _LOG_SPAN = 1e3
 _GRADIENT_STEP = 1e-3
@@ -86,7 +87,7 @@ class Local:
 
     def __init__(
         self,
-        problem: Problem,
+        problem: Equations,
         x: Array,
         values: Values,
         wrt: Sequence[str],
@@ -96,7 +97,7 @@ class Local:
         self.problem, self.x, self.values, self.wrt, self.accurate = problem, x, values, wrt, accurate
         self.ranges = ranges
         self._jac: Any = None
-        self._lin: Any = None
+        self._lin: Linearization | None = None
         self._pencil: Pencil | None = None
         self._residual: Array | None = None
 
@@ -113,7 +114,7 @@ class Local:
         """Take the residual, (n,), computed elsewhere."""
         self._residual = residual
 
-    def _linearize(self) -> Any:
+    def _linearize(self) -> Linearization:
         if self._lin is None:
             self._lin = self.problem.linearize(
                 self.x, self.values, self.wrt, accurate=self.accurate, ranges=self.ranges
@@ -162,30 +163,41 @@ def equation_sizes(jacs: Array) -> Array:
     n = jacs.shape[1]
     largest = np.abs(jacs[:, :, :n]).max(axis=2)
     top = np.maximum(largest.max(axis=1), ROW_GUARD * np.abs(jacs[:, :, n]).max(axis=1))
-    return np.maximum(largest, ROW_GUARD * top[:, None])
+    found: Array = np.maximum(largest, ROW_GUARD * top[:, None])
+    return found
 
 
-class Condition(Protocol):
+class Condition(ABC):
     """Equations beside f = 0.
 
     Attributes
     ----------
     count : number of equations.
     aux : starting values of the auxiliary unknowns it adds to y.
-    unfolds : whether its first auxiliary unknown adds `direction` to f (see `BranchPoint`).
+    direction : (n,) what its first auxiliary unknown adds to f, None where it adds nothing (see `BranchPoint`).
     """
 
-    count: int
-    aux: tuple[float, ...]
-    unfolds: bool
+    count: int = 1
+    aux: tuple[float, ...] = ()
+    direction: Array | None = None
 
+    @abstractmethod
     def value(self, local: Local, aux: Array) -> Array:
         """Return the equations' values, (count,)."""
-        ...
+
+    def gradient(self, local: Local, system: System, y: Array) -> Array | None:
+        """Return the derivatives over (x, free parameters), (count, n + number free); None: by differences."""
+        del local, system, y
+        return None
 
     def update(self, local: Local, aux: Array) -> None:
         """Renew the borders at a solution, so that the system stays regular along a curve."""
-        ...
+        del local, aux
+
+    def exists(self, aux: Array) -> bool:
+        """Whether a solution with these auxiliary unknowns is a point of its kind."""
+        del aux
+        return True
 
 
 class System:
@@ -193,7 +205,7 @@ class System:
 
     Parameters
     ----------
-    problem : Problem
+    problem : Equations
     base : Values
         A value for every parameter; the free ones are replaced.
     free : sequence of Free
@@ -204,7 +216,7 @@ class System:
 
     def __init__(
         self,
-        problem: Problem,
+        problem: Equations,
         base: Values,
         free: Sequence[Free],
         conditions: Sequence[Condition] = (),
@@ -272,8 +284,8 @@ class System:
             return local.f
         parts = [local.f]
         for c, aux in zip(self.conditions, self._aux(y), strict=True):
-            if c.unfolds:
-                parts[0] = parts[0] + aux[0] * c.direction  # type: ignore[attr-defined]
+            if c.direction is not None:
+                parts[0] = parts[0] + aux[0] * c.direction
             parts.append(c.value(local, aux))
         return np.concatenate(parts)
 
@@ -289,36 +301,36 @@ class System:
         columns[:, : len(self.free)] = local.par * np.array(slopes)
         at = len(self.free)
         for c in self.conditions:
-            if c.unfolds:
-                columns[:, at] = c.direction  # type: ignore[attr-defined]
+            if c.direction is not None:
+                columns[:, at] = c.direction
             at += len(c.aux)
         rows = self._condition_rows(local, y)
         return border(local.jac, columns, rows[:, : self.n], rows[:, self.n :])
 
     def _condition_rows(self, local: Local, y: Array) -> Array:
         rows = np.zeros((self.equations - self.n, self.n + self.k))
-        at, rest = 0, []
-        for c, aux in zip(self.conditions, self._aux(y), strict=True):
-            gradient: Callable[..., Array] | None = getattr(c, "gradient", None)
+        at, rest = 0, list[tuple[int, Condition]]()
+        for c in self.conditions:
+            gradient = c.gradient(local, self, y)
             if gradient is not None:
-                rows[at : at + c.count, : self.n + len(self.free)] = gradient(local, self, y)
+                rows[at : at + c.count, : self.n + len(self.free)] = gradient
             else:
-                rest.append((at, c, aux))
+                rest.append((at, c))
             at += c.count
         if rest:
             self._difference_rows(rows, rest, local, y)
         return rows
 
-    def _difference_rows(self, rows: Array, rest: Sequence[Any], local: Local, y: Array) -> None:
+    def _difference_rows(self, rows: Array, rest: Sequence[tuple[int, Condition]], local: Local, y: Array) -> None:
         """Fill the rows of conditions without a gradient by centred differences: good enough for Newton's matrix."""
 
         def conditions_at(step: Array) -> tuple[Array, Array]:
             x, y1 = self.move(local.x, y, step)
             moved = self.local(x, y1)
             parts = self._aux(y1)
-            return np.concatenate([c.value(moved, parts[self.conditions.index(c)]) for _, c, _ in rest]), y1
+            return np.concatenate([c.value(moved, parts[self.conditions.index(c)]) for _, c in rest]), y1
 
-        gradient = np.empty((sum(c.count for _, c, _ in rest), self.n + self.k))
+        gradient = np.empty((sum(c.count for _, c in rest), self.n + self.k))
         for j in range(self.n + self.k):
             h = self._gradient_step(j - self.n, y)
             step = np.zeros(self.n + self.k)
@@ -327,7 +339,7 @@ class System:
             apart = 2.0 * h if j < self.n else beyond[j - self.n] - behind[j - self.n]  # one-sided at a bound
             gradient[:, j] = (after - before) / apart
         done = 0
-        for at, c, _ in rest:
+        for at, c in rest:
             rows[at : at + c.count] = gradient[done : done + c.count]
             done += c.count
 
@@ -355,11 +367,8 @@ class System:
 
     def admissible(self, x: Array, step: Array) -> Array:
         """Return a scaled step without motions that the problem holds (see `rigid`)."""
-        problem: Any = self.problem
-        if not hasattr(problem, "admissible"):
-            return step
-        scale = problem.state_scale
-        return np.concatenate([problem.admissible(x, step[: self.n] * scale) / scale, step[self.n :]])
+        scale = self.problem.state_scale
+        return np.concatenate([self.problem.admissible(x, step[: self.n] * scale) / scale, step[self.n :]])
 
     def difference(self, x1: Array, y1: Array, x0: Array, y0: Array) -> Array:
         """Return the scaled step from (x0, y0) to (x1, y1), (n + k,)."""
@@ -386,6 +395,6 @@ class System:
         """
         f = self.problem.residual(x, self.values(y))
         for c, aux in zip(self.conditions, self._aux(y), strict=True):
-            if c.unfolds:
-                f = f + aux[0] * c.direction  # type: ignore[attr-defined]
+            if c.direction is not None:
+                f = f + aux[0] * c.direction
         return float(np.max(np.abs(f) * equation_scale(local)))

@@ -8,18 +8,19 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
 from mjcont.numerics.equations.newton import length
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.corner import NEAR, cross
-from mjcont.numerics.points.events import Detector, Located, Retry
+from mjcont.numerics.points.events import Detector, Located
 from mjcont.numerics.spectra.stability import tell
 from mjcont.numerics.step.arclength import (
+    OUTSIDE,
     CurvePoint,
     advance,
     aim,
@@ -122,7 +123,8 @@ class Walker:
                     continue
                 turns = self._passes(start, point, item, periods) if passes else None
                 if turns is not None:
-                    yield End(Status.CLOSED, "the curve closes on itself" + (", full turns apart" if turns else ""))
+                    sentence = "the curve closes on itself" + (", full turns apart" if turns else "")
+                    yield End(Status.CLOSED, sentence, turns)
                     return
                 ended = step.ending is not None and item is step.items[-1]
                 if not ended or item.s - point.s > _SAME_POINT:
@@ -168,7 +170,7 @@ class Walker:
         message = self.stop(point) if self.stop is not None else None
         if not message:
             return None
-        point.extra["outside"] = True
+        OUTSIDE.put(point, True)
         return End(Status.STOPPED, message)
 
     def _steps(self, point: CurvePoint, h: float) -> list[Step | End]:
@@ -191,7 +193,7 @@ class Walker:
             if not isinstance(step, Step):
                 self.long.refused(leap.h)
                 self._leaps = []
-                return [*found, self._step(leap.old, step[1])]
+                return [*found, self._step(leap.old, step.shorter or 0.0)]
             found.append(replace(step, next=shorter) if shorter and leap is leaps[-1] else step)
         return found
 
@@ -204,7 +206,7 @@ class Walker:
             leap = self._leap(point, h)
             if not isinstance(leap, Leap):
                 self.long.refused(h)
-                return leap[1]
+                return leap.shorter or 0.0
             self._leaps.append(leap)
             if leap.ending is not None:
                 break
@@ -220,15 +222,15 @@ class Walker:
                 return tried
             if far and self.long is not None:
                 self.long.refused(h)
-            reason, h = tried
+            h = tried.shorter or 0.0
             if h < NEAR and not self.system.conditions:
                 crossed = cross(self.system, point, self.settings)
                 if crossed is not None:
                     return Step([crossed[1], crossed[0]], self.settings.ds)
             if h < self.settings.ds_min:
-                return End(Status.STEP_TOO_SMALL, f"step below ds_min at {self._where(point)}: {reason}")
+                return End(Status.STEP_TOO_SMALL, f"step below ds_min at {self._where(point)}: {tried}")
 
-    def _try(self, point: CurvePoint, h: float) -> Step | tuple[str, float]:
+    def _try(self, point: CurvePoint, h: float) -> Step | Refused:
         """Return the step of length h with what lies within, or why it is refused and the length to try instead."""
         leap = self._leap(point, h)
         if not isinstance(leap, Leap):
@@ -236,7 +238,7 @@ class Walker:
         inside = self.long.inside([(point, leap.new)])[0] if self.long is not None else Interior([])
         return self._completed(leap, inside)
 
-    def _leap(self, point: CurvePoint, h: float) -> Leap | tuple[str, float]:
+    def _leap(self, point: CurvePoint, h: float) -> Leap | Refused:
         """Return a step of length h, or why it is refused and the length to try instead."""
         settings = self.long.limits(h) if self.long is not None else self.settings
         far = h > self.settings.ds_max
@@ -245,76 +247,84 @@ class Walker:
         if aimed is not None:
             return self._landed(point, h, *aimed)
         new = advance(self.system, point, h, settings, fresh=self._fresh and not far, prediction=prediction)
-        if isinstance(new, str) and far:
+        if isinstance(new, Refused) and far:
             new = advance(self.system, point, h, settings, fresh=True, prediction=prediction)
-        if isinstance(new, str):
+        if isinstance(new, Refused):
             shorter = 0.4 * h if self._fresh or far else h
             self._fresh |= not far
-            return new, shorter
+            return replace(new, shorter=shorter)
         return Leap(point, new, h, None)
 
-    def _landed(self, point: CurvePoint, h: float, index: int, bound: float, ahead: float) -> Leap | tuple[str, float]:
+    def _landed(self, point: CurvePoint, h: float, index: int, bound: float, ahead: float) -> Leap | Refused:
         """Return the step that ends on a bound which its prediction meets, or why not and the length to try instead."""
         settings = self.long.limits(h) if self.long is not None else self.settings
         landed = land(self.system, point, index, bound, ahead, settings)
-        if isinstance(landed, str):
-            return landed, 0.4 * min(h, max(ahead, 0.1 * h))
+        if isinstance(landed, Refused):
+            return replace(landed, shorter=0.4 * min(h, max(ahead, 0.1 * h)))
         p = self.system.free[index]
         return Leap(point, landed, h, End(Status.AT_BOUND, f"{p.name} reached its bound {p.show(p.value(bound))}"))
 
-    def _completed(self, leap: Leap, inside: Interior | str) -> Step | tuple[str, float]:
+    def _completed(self, leap: Leap, inside: Interior | Refused) -> Step | Refused:
         """Return a step with what lies within, or why it is refused and the length to try instead."""
         old, new, h = leap.old, leap.new, leap.h
-        if isinstance(inside, str):
-            return inside, 0.5 * h
+        if isinstance(inside, Refused):
+            return replace(inside, shorter=0.5 * h)
         if not inside.points and not self.system.conditions and h > _SMALL_FOLDS and (
             may_turn_twice(self.system, old, new, 0)
         ):
-            return "the parameter may turn twice", 0.4 * h
-        try:
-            items = self._items(old, inside, new)
-        except Retry as retry:
-            return str(retry), 0.4 * h
+            return Refused(Why.TURNS_TWICE, "the parameter may turn twice", 0.4 * h)
+        items = self._items(old, inside, new)
+        if isinstance(items, Refused):
+            return replace(items, shorter=0.4 * h)
         stale = bool(self.system.conditions) and new.contraction > _STALE
         short = h <= self.settings.ds_max
         self._fresh |= short and by_contraction(new) < 1.0 and (new.iterations > 4 or stale)
         after = next_step(h, new, self.settings) if self.long is None else self.long.next(h, new, inside)
         return Step(items, after, leap.ending)
 
-    def _items(self, old: CurvePoint, inside: Interior, new: CurvePoint) -> list[CurvePoint | Located]:
+    def _items(self, old: CurvePoint, inside: Interior, new: CurvePoint) -> list[CurvePoint | Located] | Refused:
         """Return the points of a step after the first, with the special points between them."""
         if not inside.points or self.long is None:
-            return [*self._between(old, new, self.detectors), new]
+            found = self._between(old, new, self.detectors)
+            return found if isinstance(found, Refused) else [*found, new]
         every = [old, *inside.points, new]
         located: list[Located] = []
         for i, j in self.long.spans(old, new, inside):
             found = self._between(every[i], every[j], self.detectors)
+            if isinstance(found, Refused):
+                return found
             located += found
             if j > i + 1 and not found:
                 tell(every[i], every[i + 1 : j], every[j])
         others = [d for d in self.detectors if not d.structural]
         for a, b in itertools.pairwise(every) if others else ():
-            located += self._between(a, b, others)
+            found = self._between(a, b, others)
+            if isinstance(found, Refused):
+                return found
+            located += found
         if not located:
             return every[1:]  # type: ignore[return-value]
         return sorted([*located, *every[1:]], key=lambda e: e.point.s if isinstance(e, Located) else e.s)
 
     def _between(
         self, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector]
-    ) -> list[Located]:
+    ) -> list[Located] | Refused:
+        """Return the special points between two points of the curve, or why the step is to be shorter."""
         located: list[Located] = []
         for detector in detectors:
-            if detector.changed(old, new):
-                located += detector.locate(old, new, located)
+            found = detector.locate(old, new, located) if detector.changed(old, new) else []
+            if isinstance(found, Refused):
+                return found
+            located += found
         located = _distinct(located)
         if not located and new.s - old.s > _SMALL_FOLDS and may_turn_beyond(self.system, old, new):
-            raise Retry("a parameter may turn beyond its bound")
+            return Refused(Why.TURNS_TWICE, "a parameter may turn beyond its bound")
         return sorted(located, key=lambda e: e.point.s)
 
     def _periods(self, start: CurvePoint) -> Array:
         """Return the periods of the scaled state coordinates, infinite where a coordinate has none, (n,)."""
-        problem: Any = self.system.problem
-        if self.system.conditions or not hasattr(problem, "periods"):
+        problem = self.system.problem
+        if self.system.conditions:
             return np.full(self.system.n, np.inf)
         if self._turns is None:
             self._turns = problem.periods(start.x, self.system.values(start.y)) / problem.state_scale
