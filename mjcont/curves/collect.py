@@ -18,7 +18,7 @@ from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum
-from mjcont.numerics.step.arclength import CurvePoint, first_point, turned_back
+from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace, Walker, trace
 from mjcont.results.branch import Branch
@@ -84,10 +84,8 @@ def run_directions(
         if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
             break
         with np.errstate(all="ignore"):  # a state that overflows fails its step; that is reported as such
-            first: CurvePoint | Refused
-            if walker.long is not None and traces and traces[0].points:
-                first = turned_back(walker.system, traces[0].points)
-            else:
+            first: CurvePoint | Refused | None = walker.stepper.other_way(traces[0].points) if traces else None
+            if first is None:
                 first = first_point(walker.system, x, y, direction, walker.settings, lead)
             if isinstance(first, Refused):
                 traces.append(Trace([], [], End(Status.NO_START, f"the curve could not be entered: {first}")))

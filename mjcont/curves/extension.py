@@ -22,6 +22,7 @@ from mjcont.numerics.points.on_equilibria import critical_square
 from mjcont.numerics.points.on_loci import conditions_of, unfolding_stop
 from mjcont.numerics.spectra.spectrum import spectrum
 from mjcont.numerics.step.arclength import CurvePoint, first_point
+from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Trace, Walker, trace
 from mjcont.results.branch import Branch
 from mjcont.results.model import check_bounds, model_of
@@ -122,7 +123,7 @@ def _segment(
         kind = branch.kind.removesuffix(" locus")
         stop = unfolding_stop(system) if kind == "BP" else None
         detectors = locus_detectors(kind, system, settings, True, zeros)
-        walker = Walker(system, settings, detectors, stop, frozenset(default_ends(kind)))
+        walker = Walker(OneByOne(system, settings, detectors), stop, frozenset(default_ends(kind)))
     start = _outward(system, branch, index, before, settings)
     if isinstance(start, Refused):
         return None

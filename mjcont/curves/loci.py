@@ -17,6 +17,7 @@ from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.points.events import Detector
 from mjcont.numerics.points.on_equilibria import zero_detector
 from mjcont.numerics.points.on_loci import conditions_of, fold_locus_detectors, hopf_locus_detectors, unfolding_stop
+from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.model import check_bounds, model_of
@@ -78,7 +79,7 @@ def continue_special(
         if name not in KIND_NAMES:
             raise unknown_name("kind of special point", name, KIND_NAMES)
     ends = frozenset(end_at if end_at is not None else default_ends(kind))
-    walker = Walker(system, settings, detectors, stop, ends)
+    walker = Walker(OneByOne(system, settings, detectors), stop, ends)
     directions = check_direction(direction)
     lead = len(free) - 1
     traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)

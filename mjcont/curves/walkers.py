@@ -17,9 +17,9 @@ from mjcont.numerics.points.on_equilibria import (
     fold_detector,
     zero_detector,
 )
-from mjcont.numerics.spectra.stability import negative_stiffness
 from mjcont.numerics.step.arclength import CurvePoint
-from mjcont.numerics.walk.longsteps import LongSteps
+from mjcont.numerics.walk.filled import Filled
+from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.model import Model, model_of
 from mjcont.results.points import Point
@@ -78,8 +78,8 @@ def equilibrium_walker(
     They are where points that differ in the parameter are evaluated together, and only dampers resist velocity.
     """
     cheap = system.problem.passive and system.problem.side_by_side(system.names[0])
-    long = LongSteps(system, settings, negative_stiffness) if cheap else None
-    return Walker(system, settings, equilibrium_detectors(system, settings, neutral, zeros), stop, long=long)
+    detectors = equilibrium_detectors(system, settings, neutral, zeros)
+    return Walker((Filled if cheap else OneByOne)(system, settings, detectors), stop)
 
 
 def monitor_of(problem: Model, name: str, value: float) -> Callable[[Array, Values], float]:

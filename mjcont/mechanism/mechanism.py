@@ -160,11 +160,9 @@ class Mechanism(Observed, Model):
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`; a path such as `joint:hip.stiffness` is one, too."""
-        if name not in self.parameters:
-            if ":" not in name:
-                raise unknown_name("parameter", name, self.parameters)
+        if ":" in name and name not in self.parameters:
             self.declare(name, name)
-        return self.parameters[name]
+        return Model.parameter(self, name)
 
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the model's own for the others.

@@ -27,6 +27,7 @@ from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint
+from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch, sliced
 from mjcont.results.loadpaths import Jump, LoadPath, Segment
@@ -230,7 +231,8 @@ class _Follower:
         free = Free(name, min(low, high), max(low, high), problem.parameter(name).unit)
         system = System(problem, values, [free])
         detectors = equilibrium_detectors(system, self.settings, [], {})
-        walker = Walker(system, self.settings, detectors, _unstable(system, forward), frozenset({"LP", "HB", "BP"}))
+        stepper = OneByOne(system, self.settings, detectors)
+        walker = Walker(stepper, _unstable(system, forward), frozenset({"LP", "HB", "BP"}))
         traces = run_directions(walker, at.state, system.start_y(), (float(forward),), None)
         if not traces[0].points:
             return None, (traces[0].end.status.value, traces[0].end.message), None

@@ -53,7 +53,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Leap:
-    """A long step whose inside waits to be filled together with others.
+    """A step that was predicted and corrected, and not yet looked at.
 
     Attributes
     ----------

@@ -1,51 +1,32 @@
-"""The driver: follows a curve in one direction, or both, and yields points and special points as they come."""
+"""The driver: follows a curve in one direction, or both, and yields points and special points as they come.
+
+It is told what steps (`OneByOne`, `Filled`), and knows limits, when a curve has closed, and what was found before.
+"""
 
 from __future__ import annotations
 
-import itertools
 import math
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from mjcont.numerics.equations.newton import length
 from mjcont.numerics.equations.problem import Array
-from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
-from mjcont.numerics.points.corner import NEAR, cross
-from mjcont.numerics.points.events import Detector, Located
-from mjcont.numerics.spectra.stability import tell
-from mjcont.numerics.step.arclength import (
-    OUTSIDE,
-    CurvePoint,
-    advance,
-    aim,
-    by_contraction,
-    land,
-    may_turn_beyond,
-    may_turn_twice,
-    next_step,
-    predict,
-)
+from mjcont.numerics.points.events import Located
+from mjcont.numerics.step.arclength import OUTSIDE, CurvePoint
 from mjcont.numerics.walk.guard import guarded
-from mjcont.numerics.walk.interior import Interior
-from mjcont.numerics.walk.longsteps import LongSteps
-from mjcont.numerics.walk.steps import End, Leap, Status, Step
+from mjcont.numerics.walk.onebyone import OneByOne
+from mjcont.numerics.walk.steps import End, Status, Step
 
-# below this step a pair of folds, or a fold beyond a bound, is not looked for between two points
-_SMALL_FOLDS = 1e-5
 # a curve that ends on the bound where it is already adds no second point there
 _SAME_POINT = 1e-9
 # special points of a kind nearer than this are one
 _SAME_LOCATED = 1e-7
-# long steps that are filled together
-_AHEAD = 6
-# along a locus, whose matrices are not extrapolated, contraction that tells that they turn with the mechanism
-_STALE = 0.25
 
 
 @dataclass(slots=True)
@@ -62,25 +43,29 @@ Stop = Callable[[CurvePoint], str | None]
 
 @dataclass(slots=True)
 class Walker:
-    """What a walk along a curve needs.
+    """A walk along a curve.
 
     Attributes
     ----------
-    detectors : in the order in which they look at a step; the first may ask for a shorter one.
+    stepper : what steps.
     stop : returns a sentence to end the curve at a point (limits on observables, a user's callback).
     end_at : kinds of special points that end the curve.
-    long : takes steps longer than the distance of points, which it fills; None for one step a point.
     """
 
-    system: System
-    settings: Settings
-    detectors: Sequence[Detector] = ()
+    stepper: OneByOne
     stop: Stop | None = None
     end_at: frozenset[str] = frozenset()
-    long: LongSteps | None = None
-    _fresh: bool = field(default=False, init=False)
     _turns: Array | None = field(default=None, init=False)
-    _leaps: list[Leap] = field(default_factory=list, init=False)
+
+    @property
+    def system(self) -> System:
+        """The equations of the curve."""
+        return self.stepper.system
+
+    @property
+    def settings(self) -> Settings:
+        """The settings of the walk."""
+        return self.stepper.settings
 
     def walk(self, start: CurvePoint, known: Sequence[Located] = ()) -> Iterator[CurvePoint | Located | End]:
         """Yield the curve's points after `start`, special points before the point that follows them, and the end.
@@ -88,13 +73,9 @@ class Walker:
         `known` are special points of the same curve found before, in the other direction: none is found twice.
         """
         settings, began = self.settings, time.monotonic()
-        point, h, count = start, settings.ds, 1
-        steps, self._leaps = deque[Step | End](), []
-        if start.past:
-            h = max(h, -0.5 * start.past[-1].s)
-        elif self.long is not None:
-            self.long.begin()
-        for detector in self.detectors:
+        point, h, count = start, self.stepper.begin(start), 1
+        steps = deque[Step | End]()
+        for detector in self.stepper.detectors:
             detector.changed(point, point)
         every = list(known)
         periods = self._periods(start)
@@ -105,7 +86,7 @@ class Walker:
                 return
             limit = self._limit(point, count, began)
             if not (limit or steps):
-                steps.extend(self._steps(point, h))
+                steps.extend(self.stepper.steps(point, h))
             step = limit or steps.popleft()
             if isinstance(step, End):
                 yield step
@@ -173,154 +154,6 @@ class Walker:
         OUTSIDE.put(point, True)
         return End(Status.STOPPED, message)
 
-    def _steps(self, point: CurvePoint, h: float) -> list[Step | End]:
-        """Return the next step or steps, or the end of a curve that cannot be followed.
-
-        Long steps are taken several at a time and filled together. The last one waits for the next: what lies inside a
-        step is known better with points on both sides.
-        """
-        if self.long is None or not (self._leaps or self.long.runs_ahead(h)):
-            return [self._step(point, h)]
-        shorter = self._run_ahead(point, h)
-        leaps, self._leaps = self._leaps, []
-        if not leaps:
-            return [self._step(point, shorter)]
-        if len(leaps) > 1 and leaps[-1].ending is None and not shorter:
-            self._leaps = [leaps.pop()]
-        found: list[Step | End] = []
-        for leap, inside in zip(leaps, self.long.inside([(s.old, s.new) for s in leaps]), strict=False):
-            step = self._completed(leap, inside)
-            if not isinstance(step, Step):
-                self.long.refused(leap.h)
-                self._leaps = []
-                return [*found, self._step(leap.old, step.shorter or 0.0)]
-            found.append(replace(step, next=shorter) if shorter and leap is leaps[-1] else step)
-        return found
-
-    def _run_ahead(self, point: CurvePoint, h: float) -> float:
-        """Add long steps to those that wait to be filled; return what length to try where one is refused, else 0."""
-        assert self.long is not None
-        if self._leaps:
-            point, h = self._leaps[-1].new, self.long.next(self._leaps[-1].h, self._leaps[-1].new, Interior([]))
-        while len(self._leaps) <= _AHEAD and self.long.runs_ahead(h):
-            leap = self._leap(point, h)
-            if not isinstance(leap, Leap):
-                self.long.refused(h)
-                return leap.shorter or 0.0
-            self._leaps.append(leap)
-            if leap.ending is not None:
-                break
-            point, h = leap.new, self.long.next(h, leap.new, Interior([]))
-        return 0.0
-
-    def _step(self, point: CurvePoint, h: float) -> Step | End:
-        """Return the next step, or the end of a curve that cannot be followed."""
-        while True:
-            far = self.long is not None and h > self.settings.ds_max
-            tried = self._try(point, h)
-            if isinstance(tried, Step):
-                return tried
-            if far and self.long is not None:
-                self.long.refused(h)
-            h = tried.shorter or 0.0
-            if h < NEAR and not self.system.conditions:
-                crossed = cross(self.system, point, self.settings)
-                if crossed is not None:
-                    return Step([crossed[1], crossed[0]], self.settings.ds)
-            if h < self.settings.ds_min:
-                return End(Status.STEP_TOO_SMALL, f"step below ds_min at {self._where(point)}: {tried}")
-
-    def _try(self, point: CurvePoint, h: float) -> Step | Refused:
-        """Return the step of length h with what lies within, or why it is refused and the length to try instead."""
-        leap = self._leap(point, h)
-        if not isinstance(leap, Leap):
-            return leap
-        inside = self.long.inside([(point, leap.new)])[0] if self.long is not None else Interior([])
-        return self._completed(leap, inside)
-
-    def _leap(self, point: CurvePoint, h: float) -> Leap | Refused:
-        """Return a step of length h, or why it is refused and the length to try instead."""
-        settings = self.long.limits(h) if self.long is not None else self.settings
-        far = h > self.settings.ds_max
-        prediction = predict(point, h)
-        aimed = aim(self.system, point, h, prediction)
-        if aimed is not None:
-            return self._landed(point, h, *aimed)
-        new = advance(self.system, point, h, settings, fresh=self._fresh and not far, prediction=prediction)
-        if isinstance(new, Refused) and far:
-            new = advance(self.system, point, h, settings, fresh=True, prediction=prediction)
-        if isinstance(new, Refused):
-            shorter = 0.4 * h if self._fresh or far else h
-            self._fresh |= not far
-            return replace(new, shorter=shorter)
-        return Leap(point, new, h, None)
-
-    def _landed(self, point: CurvePoint, h: float, index: int, bound: float, ahead: float) -> Leap | Refused:
-        """Return the step that ends on a bound which its prediction meets, or why not and the length to try instead."""
-        settings = self.long.limits(h) if self.long is not None else self.settings
-        landed = land(self.system, point, index, bound, ahead, settings)
-        if isinstance(landed, Refused):
-            return replace(landed, shorter=0.4 * min(h, max(ahead, 0.1 * h)))
-        p = self.system.free[index]
-        return Leap(point, landed, h, End(Status.AT_BOUND, f"{p.name} reached its bound {p.show(p.value(bound))}"))
-
-    def _completed(self, leap: Leap, inside: Interior | Refused) -> Step | Refused:
-        """Return a step with what lies within, or why it is refused and the length to try instead."""
-        old, new, h = leap.old, leap.new, leap.h
-        if isinstance(inside, Refused):
-            return replace(inside, shorter=0.5 * h)
-        if not inside.points and not self.system.conditions and h > _SMALL_FOLDS and (
-            may_turn_twice(self.system, old, new, 0)
-        ):
-            return Refused(Why.TURNS_TWICE, "the parameter may turn twice", 0.4 * h)
-        items = self._items(old, inside, new)
-        if isinstance(items, Refused):
-            return replace(items, shorter=0.4 * h)
-        stale = bool(self.system.conditions) and new.contraction > _STALE
-        short = h <= self.settings.ds_max
-        self._fresh |= short and by_contraction(new) < 1.0 and (new.iterations > 4 or stale)
-        after = next_step(h, new, self.settings) if self.long is None else self.long.next(h, new, inside)
-        return Step(items, after, leap.ending)
-
-    def _items(self, old: CurvePoint, inside: Interior, new: CurvePoint) -> list[CurvePoint | Located] | Refused:
-        """Return the points of a step after the first, with the special points between them."""
-        if not inside.points or self.long is None:
-            found = self._between(old, new, self.detectors)
-            return found if isinstance(found, Refused) else [*found, new]
-        every = [old, *inside.points, new]
-        located: list[Located] = []
-        for i, j in self.long.spans(old, new, inside):
-            found = self._between(every[i], every[j], self.detectors)
-            if isinstance(found, Refused):
-                return found
-            located += found
-            if j > i + 1 and not found:
-                tell(every[i], every[i + 1 : j], every[j])
-        others = [d for d in self.detectors if not d.structural]
-        for a, b in itertools.pairwise(every) if others else ():
-            found = self._between(a, b, others)
-            if isinstance(found, Refused):
-                return found
-            located += found
-        if not located:
-            return every[1:]  # type: ignore[return-value]
-        return sorted([*located, *every[1:]], key=lambda e: e.point.s if isinstance(e, Located) else e.s)
-
-    def _between(
-        self, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector]
-    ) -> list[Located] | Refused:
-        """Return the special points between two points of the curve, or why the step is to be shorter."""
-        located: list[Located] = []
-        for detector in detectors:
-            found = detector.locate(old, new, located) if detector.changed(old, new) else []
-            if isinstance(found, Refused):
-                return found
-            located += found
-        located = _distinct(located)
-        if not located and new.s - old.s > _SMALL_FOLDS and may_turn_beyond(self.system, old, new):
-            return Refused(Why.TURNS_TWICE, "a parameter may turn beyond its bound")
-        return sorted(located, key=lambda e: e.point.s)
-
     def _periods(self, start: CurvePoint) -> Array:
         """Return the periods of the scaled state coordinates, infinite where a coordinate has none, (n,)."""
         problem = self.system.problem
@@ -351,18 +184,6 @@ class Walker:
         aside = length(to_start - along * chord / size)
         # a step that ends on the start but for rounding meets it, or the next one would miss it as narrowly
         return bool(turns.any()) if 0.0 < along <= size + _SAME_LOCATED and aside <= 0.1 * size else None
-
-    def _where(self, point: CurvePoint) -> str:
-        free = zip(self.system.free, point.y, strict=False)
-        return ", ".join(f"{p.name} = {p.show(p.value(float(u)))}" for p, u in free)
-
-
-def _distinct(located: list[Located]) -> list[Located]:
-    """Drop a fold that is the same point as a branch point (a pitchfork's turning side branch)."""
-    branch_points = [e for e in located if e.kind == "BP"]
-    return [
-        e for e in located if e.kind != "LP" or all(abs(e.point.s - b.point.s) > 1e-5 for b in branch_points)
-    ]
 
 
 def trace(
