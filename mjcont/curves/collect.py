@@ -9,13 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.curves.rows import CROSSINGS, CurveRows, curve_rows
+from mjcont.curves.rows import CurveRows, curve_rows
 from mjcont.errors import StartError
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.kinds import KINDS
 from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum
 from mjcont.numerics.step.arclength import CurvePoint, first_point
@@ -175,7 +176,7 @@ def build_branch(
     problem = model_of(system.problem)
     words, counts, spectra = rows.stability()
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
-    crossings = [i for i, e in enumerate(rows.located) if e is not None and e.kind in CROSSINGS]
+    crossings = [i for i, e in enumerate(rows.located) if e is not None and KINDS[e.kind].crosses]
     stability[crossings] = "marginal"
     base = rows.values(0)
     lead = system.names[0]

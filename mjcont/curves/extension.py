@@ -18,8 +18,9 @@ from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.kinds import conditions_of
 from mjcont.numerics.points.on_equilibria import critical_square
-from mjcont.numerics.points.on_loci import conditions_of, unfolding_stop
+from mjcont.numerics.points.on_loci import unfolding_stop
 from mjcont.numerics.spectra.spectrum import spectrum
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.onebyone import OneByOne

@@ -15,17 +15,16 @@ from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.points.events import Detector
+from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of
 from mjcont.numerics.points.on_equilibria import zero_detector
-from mjcont.numerics.points.on_loci import conditions_of, fold_locus_detectors, hopf_locus_detectors, unfolding_stop
+from mjcont.numerics.points.on_loci import fold_locus_detectors, hopf_locus_detectors, unfolding_stop
 from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.model import check_bounds, model_of
-from mjcont.results.points import KIND_NAMES, SpecialPoint, show
+from mjcont.results.points import SpecialPoint, show
 
-CONTINUABLE = ("LP", "HB", "BP", "CP", "BT", "ZH")
-_NAMES = {"LP": "fold", "HB": "Hopf", "BP": "branch-point", "CP": "cusp", "BT": "Bogdanov-Takens", "ZH": "zero-Hopf"}
-CODIMENSION = {"LP": 1, "HB": 1, "BP": 1, "CP": 2, "BT": 2, "ZH": 2}
+CODIMENSION = {code: KINDS[code].codimension for code in CONTINUABLE}
 
 
 @np.errstate(all="ignore")
@@ -76,8 +75,8 @@ def continue_special(
     stop: Callable[[Any], str | None] | None = unfolding_stop(system) if kind == "BP" else None
     detectors = locus_detectors(kind, system, settings, lyapunov, zeros or {})
     for name in end_at or ():
-        if name not in KIND_NAMES:
-            raise unknown_name("kind of special point", name, KIND_NAMES)
+        if name not in KINDS:
+            raise unknown_name("kind of special point", name, KINDS)
     ends = frozenset(end_at if end_at is not None else default_ends(kind))
     walker = Walker(OneByOne(system, settings, detectors), stop, ends)
     directions = check_direction(direction)
@@ -110,7 +109,7 @@ def _freed(point: SpecialPoint, kind: str, free: Sequence[Free]) -> list[Free]:
     found = [p for p in free if kind == point.kind or p.name != list(point.free)[-1]]
     if len(found) != CODIMENSION[kind] + 1:
         raise MjcontError(
-            f"{point.label} lies on a curve in {len(found) - 1} parameters: a {_NAMES[kind]} curve has "
+            f"{point.label} lies on a curve in {len(found) - 1} parameters: a {KINDS[kind].continues_as} curve has "
             f"{CODIMENSION[kind] + 1} free parameters, this would have {len(found)}"
         )
     return found

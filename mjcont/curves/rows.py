@@ -11,13 +11,11 @@ import numpy as np
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.kinds import KINDS
 from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import spectra_at, verdicts
 from mjcont.numerics.step.arclength import OUTSIDE, CurvePoint
 from mjcont.numerics.walk.between import rows_between
-
-# special points at which eigenvalues pass the axis
-CROSSINGS = ("LP", "HB", "BP")
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +99,7 @@ class CurveRows:
     def _passes(self, index: int) -> bool:
         """Whether eigenvalues pass the axis in a row."""
         special = self.located[index]
-        return special is not None and special.kind in CROSSINGS
+        return special is not None and KINDS[special.kind].crosses
 
 
 def curve_rows(system: System, rows: Sequence[tuple[CurvePoint, Located | None]], chord: float) -> CurveRows:

@@ -15,10 +15,11 @@ import numpy as np
 from mjcont.errors import MjcontError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.points.kinds import KINDS
 from mjcont.results.branch import Branch
 from mjcont.results.histories import History
 from mjcont.results.loadpaths import Jump, LoadPath
-from mjcont.results.points import KIND_NAMES, show
+from mjcont.results.points import show
 
 Result = History | Branch | LoadPath
 # how far a jump counts at least, in parts of the diagram: shorter ones would pass unseen
@@ -162,7 +163,7 @@ def _of_path(path: LoadPath, x: str, y: str) -> Track:
 
 def _said(jump: Jump) -> str:
     # by kind: a path counts its labels along itself, a branch beside it along the branch
-    return f"jump at a {KIND_NAMES[jump.kind]}" if jump.kind in KIND_NAMES else "jump"
+    return f"jump at a {KINDS[jump.kind].name}" if jump.kind in KINDS else "jump"
 
 
 def _motion(path: LoadPath, jump: Jump) -> Array:

@@ -26,11 +26,11 @@ from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.points import normalform
 from mjcont.numerics.points.events import ScalarZero
-from mjcont.numerics.points.on_loci import conditions_of
+from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of, name_of
 from mjcont.results.maps import FollowedPoint
-from mjcont.results.points import KIND_NAMES, Point, SpecialPoint, show
+from mjcont.results.points import Point, SpecialPoint, show
 
-SUPPORTED = ("LP", "HB", "BP", "CP", "BT", "ZH", "UZ")
+SUPPORTED = (*CONTINUABLE, "UZ")
 _REACH = 0.3  # longest predicted step, scaled
 _SHORTEST = 1e-4  # of the way
 _AGREE = 0.2
@@ -57,7 +57,7 @@ def defining_kind(point: Point) -> str:
     kind = "turning" if turning else followed_as(point)
     if kind not in (*SUPPORTED, "turning"):
         raise MjcontError(
-            f"{point.label}, a {KIND_NAMES.get(point.kind, point.kind)}, has no regular defining system. "
+            f"{point.label}, a {name_of(point.kind)}, has no regular defining system. "
             f"Valid kinds: {', '.join(SUPPORTED)}, and plain equilibria."
         )
     return kind
@@ -98,7 +98,7 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
         v *= 1.0 if v[np.argmax(np.abs(v))] > 0 else -1.0
         w = w / (w @ v) if abs(w @ v) > 1e-12 * np.linalg.norm(w) else w / np.linalg.norm(w)
         function = normalform.fold_coefficient if kind == "LP" else normalform.cusp_coefficient
-        coefficients = {"a" if kind == "LP" else "c": function(local, v, w)}
+        coefficients = {KINDS[kind].coefficients[0]: function(local, v, w)}
         vectors = {"v": v, "w": w}
     elif kind == "HB":
         omega = math.sqrt(system.conditions[0].square(c.y[-1:]))  # type: ignore[attr-defined]

@@ -22,11 +22,12 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.points.kinds import KINDS
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
 from mjcont.results.files import FORMAT_VERSION, write_atomically, write_columns
 from mjcont.results.model import Model
-from mjcont.results.points import KIND_NAMES, Column, Point, show
+from mjcont.results.points import Column, Point, show
 
 KIND = "load path"
 _SHOWN = 2
@@ -90,7 +91,7 @@ class Jump:
 
     def __str__(self) -> str:
         """Return a sentence: where, from, to, energy, time."""
-        what = KIND_NAMES.get(self.kind, "unstable")
+        what = KINDS[self.kind].name if self.kind in KINDS else "unstable"
         names = list(self.before.observables)[:_SHOWN]
         units = self.before.units
 

@@ -13,6 +13,7 @@ from mjcont.numerics.equations.problem import Equations, Linearization, Pencil
 from mjcont.numerics.equations.refusals import Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Free, System
+from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, found_on
 from mjcont.numerics.step.arclength import first_point
 from mjcont.results.model import Model
 from mjcont.results.quantities import Observable, Parameter
@@ -84,3 +85,16 @@ def test_a_value_that_is_not_there_is_refused_with_the_reason_of_the_problem():
     system = System(Parabola("no model compiles there"), {"p": 1.0}, [Free("p", -1.0, 1.0)])
     refused = first_point(system, np.ones(1), system.start_y(), 1.0, Settings())
     assert (refused.why, str(refused)) == (Why.UNDEFINED, "no model compiles there")
+
+
+def test_each_kind_that_is_followed_has_conditions_and_as_many_parameters_as_they_solve_for():
+    system = System(Parabola(), {"p": 0.0}, [Free("p", -1.0, 1.0)])
+    assert CONTINUABLE == tuple(k.code for k in KINDS.values() if k.conditions is not None)
+    for code in CONTINUABLE:
+        conditions = KINDS[code].conditions(system.local(np.zeros(1), np.zeros(1)), system, 1.0)
+        added = sum(c.count - len(c.aux) for c in conditions)
+        assert added == KINDS[code].codimension, code
+
+
+def test_what_is_found_on_a_branch_and_not_on_a_locus_has_codimension_one():
+    assert {c for c in found_on("branch") if c not in found_on("locus")} == {"LP", "HB"}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -208,25 +208,3 @@ def unfolding_stop(system: System) -> Callable[[CurvePoint], str | None]:
         return None
 
     return stop
-
-
-
-
-def conditions_of(kind: str, local: Local, system: System, square: float | None) -> Sequence[Any]:
-    """Return the conditions that define a special point of a kind, with borders from the point itself."""
-    from mjcont.numerics.equations.defining import BranchPoint
-
-    if kind == "HB":
-        assert square is not None
-        return [Hopf(local, square)]
-    if kind == "BP":
-        return [BranchPoint(local, system.free[0])]
-    fold = Fold(local)
-    if kind == "CP":
-        return [fold, FoldCoefficient(fold, local)]
-    if kind == "BT":
-        return [fold, DoubleZero(fold, local)]
-    if kind == "ZH":
-        assert square is not None
-        return [fold, Hopf(local, square)]
-    return [fold]
