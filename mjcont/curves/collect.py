@@ -12,18 +12,20 @@ import numpy as np
 from mjcont.curves.rows import CurveRows, curve_rows
 from mjcont.errors import StartError
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.kinds import KINDS, holds_eigenvalues
 from mjcont.numerics.spectra.spectrum import Spectrum
-from mjcont.numerics.spectra.stability import holds_eigenvalues, local_spectrum, verdict_at
-from mjcont.numerics.step.arclength import CurvePoint, first_point, turned_back
+from mjcont.numerics.spectra.stability import local_spectrum, verdict_at
+from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace, Walker, trace
 from mjcont.results.branch import Branch
+from mjcont.results.model import Model, model_of, units
 from mjcont.results.points import Column, Point, SpecialPoint, show, special_from_row
 from mjcont.results.provenance import provenance
-from mjcont.results.quantities import units
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,17 +41,17 @@ Progress = Callable[[int, Found | None], None]
 _VECTOR_NAMES = ("v", "w")
 
 
-def make_point(problem: Any, x: Array, values: Values, kind: str = "") -> Point:
+def make_point(problem: Model, x: Array, values: Values, kind: str = "") -> Point:
     """Return the Point of an equilibrium, or of a special point of a kind, with observables, eigenvalues, stability."""
     s = local_spectrum(Local(problem, x, values, (), False))
-    word, count = verdict_at(kind, s) if holds_eigenvalues(kind) else (s.stability, s.n_unstable)
+    word, count = verdict_at(KINDS[kind].holds, s) if holds_eigenvalues(kind) else (s.stability, s.n_unstable)
     measured = problem.measure(x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
     return Point(dict(values), observables, x.copy(), s.eigenvalues, word, count, problem, units(problem))
 
 
 def _found(system: System, item: Located) -> Found:
-    problem: Any = system.problem
+    problem = model_of(system.problem)
     values = system.values(item.point.y)
     measured = problem.measure(item.point.x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
@@ -84,12 +86,10 @@ def run_directions(
         if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
             break
         with np.errstate(all="ignore"):  # a state that overflows fails its step; that is reported as such
-            first: CurvePoint | str
-            if walker.long is not None and traces and traces[0].points:
-                first = turned_back(walker.system, traces[0].points)
-            else:
+            first: CurvePoint | Refused | None = walker.stepper.other_way(traces[0].points) if traces else None
+            if first is None:
                 first = first_point(walker.system, x, y, direction, walker.settings, lead)
-            if isinstance(first, str):
+            if isinstance(first, Refused):
                 traces.append(Trace([], [], End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
             known = [e for t in traces for e in t.special]
@@ -120,9 +120,9 @@ def collect(
             start_index = max(len(rows) - 1, 0)
         else:
             rows += ordered[1:] if rows else ordered
-    problem = system.problem
     if not rows:
-        raise StartError(f"{problem.name}: " + "; ".join(t.end.message for t in traces))  # type: ignore[attr-defined]
+        name = model_of(system.problem).name
+        raise StartError(f"{name}: " + "; ".join(t.end.message for t in traces))
     start = rows[start_index][0]
     table = completed(kind, system, rows, settings, traces)
     start_index = next(i for i, p in enumerate(table.points) if p is start)
@@ -158,7 +158,7 @@ def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
     rows: list[tuple[CurvePoint, Located | None]] = [(p, None) for p in run.points]
     rows += [(e.point, e) for e in run.special]
     rows = sorted(rows, key=lambda r: r[0].s)
-    closed = run.end.status is Status.CLOSED and "turns" not in run.end.message
+    closed = run.end.status is Status.CLOSED and not run.end.full_turns
     return [*rows, rows[0]] if closed else rows
 
 
@@ -174,12 +174,12 @@ def build_branch(
 ) -> Branch:
     """Return the branch of ordered rows: columns, spectra, labelled special points, provenance."""
     system, states = rows.system, rows.states
-    problem: Any = system.problem
+    problem = model_of(system.problem)
     words, counts, spectra = rows.stability()
     for i, s in enumerate(spectra):
         at = _kind_at(kind, rows.located[i])
         if at and s is not None:
-            words[i], counts[i] = verdict_at(at, s)
+            words[i], counts[i] = verdict_at(KINDS[at].holds, s)
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
     base = rows.values(0)
     lead = system.names[0]
@@ -232,7 +232,7 @@ def _kind_at(curve: str, special: Located | None) -> str:
 
 def _springs(rows: CurveRows) -> list[str]:
     """Return the notes on the stiffness of a mechanism's constraints, over the range of the free parameters."""
-    if not getattr(rows.system.problem, "constrained", False):
+    if not model_of(rows.system.problem).constrained:
         return []
     from mjcont.models.springnotes import notes_on  # MuJoCo is imported only where there is a Mechanism
 

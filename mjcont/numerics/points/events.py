@@ -10,15 +10,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
 
 from mjcont.numerics.equations.newton import Corrected, correct
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
-from mjcont.numerics.equations.system import Local, System
+from mjcont.numerics.equations.system import Condition, Local, System
 from mjcont.numerics.step.arclength import CurvePoint, advance
+from mjcont.numerics.step.notes import Note
 
 _MOST_BISECTIONS = 40
 _OUTSIDE = 1e-6
@@ -48,14 +51,6 @@ class Located:
     note: str = ""
 
 
-class Retry(Exception):
-    """The step between two points must be shortened; the argument is the reason, a clause."""
-
-
-class Pole(Exception):
-    """A test function changes sign by growing beyond bounds: there is no zero."""
-
-
 class Detector(Protocol):
     """Finds points of one kind between two successive points of a curve.
 
@@ -70,8 +65,11 @@ class Detector(Protocol):
         """Whether the test function changes between the points."""
         ...
 
-    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
-        """Return the points there; `found` are those of earlier detectors on the same step."""
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located] | Refused:
+        """Return the points there, or why the step is to be shorter.
+
+        `found` are those of earlier detectors on the same step.
+        """
         ...
 
 
@@ -80,19 +78,22 @@ def bisect(
     old: CurvePoint,
     new: CurvePoint,
     changed: Callable[[CurvePoint, CurvePoint], bool],
-    settle: Callable[[CurvePoint, CurvePoint], Located | None],
+    settle: Callable[[CurvePoint, CurvePoint], Located | Refused | None],
     settings: Settings,
 ) -> Located | None:
-    """Return what `settle` finds in a bracket, halving the bracket while it finds nothing; None if it never does."""
+    """Return what `settle` finds in a bracket, halving the bracket while it finds nothing.
+
+    None if it never does, or is sure that there is nothing.
+    """
     for _ in range(_MOST_BISECTIONS):
         result = settle(old, new)
         if result is not None:
-            return result
+            return None if isinstance(result, Refused) else result
         length = new.s - old.s
         if length < 1e-7:
             return None
         middle = advance(system, old, 0.5 * length, settings)
-        if isinstance(middle, str):
+        if isinstance(middle, Refused):
             return None
         if changed(old, middle):
             new = middle
@@ -180,7 +181,7 @@ class ZeroDetector:
     differs: Callable[[CurvePoint, CurvePoint], bool] | None = None
     structural: bool = False
     fraction: Callable[[CurvePoint, CurvePoint], float] | None = None
-    _first: float = 0.0
+    _note: Note[float] = field(default_factory=Note, init=False)
 
     def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
         """Whether the test changes sign, or differs as told."""
@@ -190,25 +191,22 @@ class ZeroDetector:
         return a * b < 0 or (a == 0.0) != (b == 0.0)  # a point on a zero belongs to the steps on both sides
 
     def _value(self, point: CurvePoint) -> float:
-        key = f"test {self.kind} {self.name}"
-        if key not in point.extra:
-            point.extra[key] = self.test(point)
-        return float(point.extra[key])
+        return self._note.of(point, lambda: self.test(point))
 
-    def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
+    def _settle(self, old: CurvePoint, new: CurvePoint, largest: float) -> Located | Refused | None:
         a, b = self._value(old), self._value(new)
-        if self.differs is None and min(abs(a), abs(b)) > _POLE * self._first:
-            raise Pole
+        if self.differs is None and min(abs(a), abs(b)) > _POLE * largest:
+            return Refused(Why.POLE, f"the test of {self.kind} grows beyond bounds where it changes sign")
         c = s = None
         if self.fraction is not None and new.s - old.s <= self.settings.ds_max:
             c = self.solve(guessed(self.system, old, new, self.fraction(old, new)))
-            s = None if c.failure else within(self.system, old, new, c)
+            s = None if c.failure is not None else within(self.system, old, new, c)
         if c is None or s is None:
             near = approximate(self.system, old, new, zero_fraction(a, b), self.settings)
-            if near.failure:
+            if near.failure is not None:
                 return None
             c = self.solve(near)
-            s = None if c.failure else within(self.system, old, new, c)
+            s = None if c.failure is not None else within(self.system, old, new, c)
             if s is None:
                 return None
         done = self.finish(c)
@@ -219,18 +217,14 @@ class ZeroDetector:
 
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
         """Return the zero between the points, if there is one; a pole is none."""
-        self._first = max(abs(self._value(old)), abs(self._value(new)))
-        try:
-            result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
-        except Pole:
-            return []
+        largest = max(abs(self._value(old)), abs(self._value(new)))
+        settle = partial(self._settle, largest=largest)
+        result = bisect(self.system, old, new, self.changed, settle, self.settings)
         return [result] if result is not None else []
 
 
-class ScalarZero:
+class ScalarZero(Condition):
     """The condition monitor(x, p) = 0 on an equilibrium curve."""
-
-    count, aux, unfolds = 1, (), False
 
     def __init__(self, monitor: Callable[[Array, Values], float]) -> None:
         self.monitor = monitor
@@ -238,6 +232,3 @@ class ScalarZero:
     def value(self, local: Local, aux: Array) -> Array:
         """Return the monitor's value."""
         return np.array([self.monitor(local.x, local.values)])
-
-    def update(self, local: Local, aux: Array) -> None:
-        """Nothing to renew."""

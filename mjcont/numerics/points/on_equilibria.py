@@ -12,12 +12,12 @@ from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.defining import BranchPoint, Fold, Hopf
 from mjcont.numerics.equations.newton import Corrected, solve
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points import normalform
 from mjcont.numerics.points.events import (
     Located,
-    Retry,
     ScalarZero,
     ZeroDetector,
     approximate,
@@ -29,6 +29,7 @@ from mjcont.numerics.points.events import (
 from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum, negative_stiffness, spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint, advance, turning_fraction
+from mjcont.numerics.step.notes import Note
 
 _NOT_TRANSVERSE = 1e-6
 # the unfolding of a true branch point vanishes with the square of the error of its location
@@ -38,6 +39,7 @@ _CLOSE = 1e-6
 _SMALL = 1e-4
 _SAME_PAIR = 0.7
 _BRACKET = 1e-9
+SLOPE = Note[float]()
 
 
 def square_system(system: System, conditions: Sequence[Any], at: Corrected) -> tuple[System, Array]:
@@ -63,12 +65,12 @@ class BranchPointDetector:
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
         near = approximate(self.system, old, new, 0.5, self.settings)
-        if near.failure:
+        if near.failure is not None:
             return None
         condition = BranchPoint(near.local, self.system.free[0])
         full, y = square_system(self.system, [condition], near)
         c = solve(full, near.x, y)
-        if c.failure or abs(c.y[self.system.k]) > _UNFOLDED:
+        if c.failure is not None or abs(c.y[self.system.k]) > _UNFOLDED:
             return None
         s = within(self.system, old, new, c)
         if s is None:
@@ -83,17 +85,14 @@ class BranchPointDetector:
             data["type"] = f"{'super' if data['c'] < 0 else 'sub'}critical pitchfork"
         return Located("BP", point, c.step, True, data)
 
-    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located] | Refused:
         """Return the branch point between the points.
 
-        Raises
-        ------
-        Retry
-            If the orientation changes without a branch point. Where it vanishes a matrix is singular by chance.
+        Refused if the orientation changes without one. Where it vanishes a matrix is singular by chance.
         """
         result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
         if result is None and old.sign * new.sign < 0:
-            raise Retry("the orientation changes without a branch point: another branch is near")
+            return Refused(Why.OTHER_BRANCH, "the orientation changes without a branch point: another branch is near")
         return [result] if result is not None else []
 
 
@@ -103,7 +102,7 @@ def _balanced(system: System, fold: Fold, c: Corrected) -> Corrected:
     Rounding of the state loads stiff bushes with about 1e-16 k; the left null vector, a motion of the mechanism that
     leaves the pins closed, does not feel those forces.
     """
-    if c.failure:
+    if c.failure is not None:
         return c
     _, w = fold.physical(c.local)
     slope = float(w @ c.local.par[:, 0]) * system.free[0].slope(float(c.y[0]))
@@ -173,13 +172,13 @@ class HopfDetector:
         a, b = critical_pair(spectrum_of(old)), critical_pair(spectrum_of(new))
         if a is None or b is None or not _SAME_PAIR < _frequency(b) / max(_frequency(a), 1e-300) < 1.0 / _SAME_PAIR:
             return False  # another pair is now the nearest, or a real one
-        new.extra["slope"] = (b[0] - a[0]) / length
-        slope = old.extra.get("slope")
+        SLOPE.put(new, (b[0] - a[0]) / length)
+        slope = SLOPE.get(old)
         return slope is not None and a[0] * b[0] > 0 and (a[0] + 0.5 * slope * length) * a[0] < 0 and length > _SMALL
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
         near = approximate(self.system, old, new, self._fraction(old, new), self.settings)
-        if near.failure:
+        if near.failure is not None:
             return None
         square = critical_square(local_spectrum(near.local))
         if square is None:
@@ -187,7 +186,7 @@ class HopfDetector:
         condition = Hopf(near.local, square)
         full, y = square_system(self.system, [condition], near)
         c = solve(full, near.x, y)
-        if c.failure:
+        if c.failure is not None:
             return None
         s = within(self.system, old, new, c)
         if s is None:
@@ -206,18 +205,17 @@ class HopfDetector:
         a, b = critical_sum(spectrum_of(old)), critical_sum(spectrum_of(new))
         return zero_fraction(a, b) if a * b < 0 else 0.5
 
-    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located] | Refused:
         """Return the Hopf points between the points; several are separated by bisection."""
         difference = abs(spectrum_of(old).pair_count() - spectrum_of(new).pair_count())
         if difference == 0 and spectrum_of(old).n_unstable == spectrum_of(new).n_unstable:
-            raise Retry("a mode may lose its damping and gain it back within the step")
+            return Refused(Why.OVERSEEN, "a mode may lose its damping and gain it back within the step")
         if difference == 0 and new.s - old.s <= _CLOSE:
             return []
         if difference != 1 and new.s - old.s > _CLOSE:  # several points here, or a Hopf point and a neutral saddle
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
-            if not isinstance(middle, str):
-                halves = [(a, b) for a, b in ((old, middle), (middle, new)) if self._differs(a, b)]
-                return [e for a, b in halves for e in self.locate(a, b, found)]
+            if not isinstance(middle, Refused):
+                return self._halves(old, middle, new, found)
         if self._undamped(old) or self._undamped(new):
             return [self._meeting(old, new)]
         result = bisect(self.system, old, new, self._differs, self._settle, self.settings)
@@ -227,6 +225,18 @@ class HopfDetector:
             self.neutral.append(result)
             return []
         return [result]
+
+    def _halves(
+        self, old: CurvePoint, middle: CurvePoint, new: CurvePoint, found: Sequence[Located]
+    ) -> list[Located] | Refused:
+        """Return the Hopf points of both halves of a step."""
+        every: list[Located] = []
+        for a, b in ((old, middle), (middle, new)):
+            here = self.locate(a, b, found) if self._differs(a, b) else []
+            if isinstance(here, Refused):
+                return here
+            every += here
+        return every
 
     @staticmethod
     def _undamped(point: CurvePoint) -> bool:
@@ -238,7 +248,7 @@ class HopfDetector:
         """Return where undamped pairs meet and leave the axis, bracketed."""
         while new.s - old.s > _BRACKET:
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
-            if isinstance(middle, str) or not old.s < middle.s < new.s:
+            if isinstance(middle, Refused) or not old.s < middle.s < new.s:
                 break
             old, new = (old, middle) if self._differs(old, middle) else (middle, new)
         omega = _frequency(critical_pair(spectrum_of(old)) or (0.0, 0.0))
@@ -279,7 +289,7 @@ class MultipleDetector:
         count = (self._unstable(new) or 0) - before
         while new.s - old.s > _BRACKET:
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
-            if isinstance(middle, str) or not old.s < middle.s < new.s:
+            if isinstance(middle, Refused) or not old.s < middle.s < new.s:
                 break
             old, new = (middle, new) if self._unstable(middle) == before else (old, middle)
         note = f"{abs(count)} eigenvalues of K vanish together: a point of higher multiplicity, bracketed only"

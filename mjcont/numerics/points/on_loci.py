@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,8 +11,9 @@ from mjcont.numerics.equations.bordered import Factored
 from mjcont.numerics.equations.defining import DoubleZero, Fold, FoldCoefficient, Hopf, Transversality
 from mjcont.numerics.equations.newton import Corrected, solve
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
-from mjcont.numerics.equations.system import Local, System
+from mjcont.numerics.equations.system import Condition, Local, System
 from mjcont.numerics.points import codim2, normalform
 from mjcont.numerics.points.events import Detector, ZeroDetector
 from mjcont.numerics.points.on_equilibria import critical_pairs, critical_square, square_system
@@ -23,10 +24,8 @@ from mjcont.numerics.step.arclength import CurvePoint
 Finish = Callable[[Corrected], tuple[dict[str, Any], str] | None]
 
 
-class FirstLyapunov:
+class FirstLyapunov(Condition):
     """The condition l1 = 0 on a Hopf curve."""
-
-    count, aux, unfolds = 1, (), False
 
     def __init__(self, weight: float) -> None:
         self.weight = weight
@@ -34,10 +33,6 @@ class FirstLyapunov:
     def value(self, local: Local, aux: Array) -> Array:
         """Return l1, relative to its size nearby."""
         return np.array([lyapunov_at(local)]) / self.weight
-
-    def update(self, local: Local, aux: Array) -> None:
-        """Nothing of its own to renew."""
-
 
 def lyapunov_at(local: Local) -> float:
     """Return l1 at or near a Hopf point, NaN where no pair of eigenvalues is imaginary."""
@@ -111,7 +106,8 @@ def _pair_detector(kind: str, system: System, settings: Settings, count: Callabl
     def solve_with(near: Corrected) -> Corrected:
         square = _next_square(local_spectrum(near.local), skip=kind == "HH")
         if square is None:
-            return Corrected(near.x, near.y, near.local, None, 0, 0.0, np.inf, np.inf, "no pair of eigenvalues")
+            failure = Refused(Why.UNDEFINED, "no pair of eigenvalues")
+            return Corrected(near.x, near.y, near.local, None, 0, 0.0, np.inf, np.inf, failure)
         state["pair"] = Hopf(near.local, square)
         full, y = square_system(system, [state["pair"]], near)
         return solve(full, near.x, y)
@@ -159,9 +155,7 @@ def hopf_locus_detectors(system: System, hopf: Hopf, settings: Settings, *, lyap
         return normalform.double_zero_coefficients(c.local.problem, c.x, c.local.values), ""
 
     def determinant(point: CurvePoint) -> float:
-        if "det" not in point.extra:
-            point.extra["det"] = Factored(point.local.jac).sign * float(np.sign(point.y[last]))
-        return float(point.extra["det"])
+        return Factored(point.local.jac).sign * float(np.sign(point.y[last]))
 
     def solve_fold(near: Corrected) -> Corrected:
         full, y = square_system(system, [Fold(near.local)], near)
@@ -214,25 +208,3 @@ def unfolding_stop(system: System) -> Callable[[CurvePoint], str | None]:
         return None
 
     return stop
-
-
-
-
-def conditions_of(kind: str, local: Local, system: System, square: float | None) -> Sequence[Any]:
-    """Return the conditions that define a special point of a kind, with borders from the point itself."""
-    from mjcont.numerics.equations.defining import BranchPoint
-
-    if kind == "HB":
-        assert square is not None
-        return [Hopf(local, square)]
-    if kind == "BP":
-        return [BranchPoint(local, system.free[0])]
-    fold = Fold(local)
-    if kind == "CP":
-        return [fold, FoldCoefficient(fold, local)]
-    if kind == "BT":
-        return [fold, DoubleZero(fold, local)]
-    if kind == "ZH":
-        assert square is not None
-        return [fold, Hopf(local, square)]
-    return [fold]

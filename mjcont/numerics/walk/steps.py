@@ -28,10 +28,11 @@ class Status(Enum):
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """The end of a curve: a status and a sentence."""
+    """The end of a curve: a status and a sentence; `full_turns` where it closes on itself but for these."""
 
     status: Status
     message: str
+    full_turns: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +53,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Leap:
-    """A long step whose inside waits to be filled together with others.
+    """A step that was predicted and corrected, and not yet looked at.
 
     Attributes
     ----------
