@@ -135,8 +135,7 @@ def continue_equilibria(
     walker = prepared.walker
     traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
     branch = collect(
-        "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.neutral,
-        prepared.notes,
+        "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.notes
     )
     return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
 
@@ -184,7 +183,6 @@ class _Prepared:
     walker: Walker
     x: Array
     origin: str
-    neutral: list[Located]
     notes: tuple[str, ...]
 
 
@@ -225,12 +223,11 @@ def _prepare(
     if found.failure is not None:
         raise StartError(f"no equilibrium found from {origin}: {found.failure}")
     system = System(problem, values, [Free(parameter, low, high, problem.parameter(parameter).unit)])
-    neutral: list[Located] = []
     walker = equilibrium_walker(
-        system, settings, neutral, zeros or {}, point_stop(problem, system, stop, limits or {})
+        system, settings, zeros or {}, point_stop(problem, system, stop, limits or {})
     )
     origin = f"{origin}, by Newton" if found.method == "newton" else f"{origin}, by damped motion to rest"
-    return _Prepared(walker, found.x, f"from {origin}", neutral, notes)
+    return _Prepared(walker, found.x, f"from {origin}", notes)
 
 
 def hold_rigid_modes(
