@@ -20,7 +20,7 @@ from mjcont.numerics.points.kinds import KINDS, holds_eigenvalues
 from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum, verdict_at
 from mjcont.numerics.step.arclength import CurvePoint, first_point
-from mjcont.numerics.walk.steps import End, Status
+from mjcont.numerics.walk.steps import End, Item, Status
 from mjcont.numerics.walk.trace import Trace, Walker, trace
 from mjcont.results.branch import Branch
 from mjcont.results.model import Model, model_of, units
@@ -58,15 +58,15 @@ def _found(system: System, item: Located) -> Found:
     return Found(item.kind, {n: values[n] for n in system.names}, observables)
 
 
-def reporter(system: System, progress: Progress | None) -> Callable[[CurvePoint | Located | End], None] | None:
+def reporter(system: System, progress: Progress | None) -> Callable[[Item], None] | None:
     """Return what a trace calls for each item, so that `progress` hears of points and special points."""
     if progress is None:
         return None
     count = 0
 
-    def report(item: CurvePoint | Located | End) -> None:
+    def report(item: Item) -> None:
         nonlocal count
-        if not isinstance(item, End):
+        if isinstance(item, CurvePoint | Located):
             count += isinstance(item, CurvePoint)
             progress(count, _found(system, item) if isinstance(item, Located) else None)
 
@@ -90,7 +90,7 @@ def run_directions(
             if first is None:
                 first = first_point(walker.system, x, y, direction, walker.settings, lead)
             if isinstance(first, Refused):
-                traces.append(Trace([], [], End(Status.NO_START, f"the curve could not be entered: {first}")))
+                traces.append(Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
             known = [e for t in traces for e in t.special]
             traces.append(trace(walker, first, report, known))
@@ -104,7 +104,6 @@ def collect(
     directions: Sequence[float],
     origin: str,
     settings: Settings,
-    neutral: Sequence[Located] = (),
     notes: Sequence[str] = (),
 ) -> Branch:
     """Join the directions of a curve into a branch, special points in their places.
@@ -126,12 +125,7 @@ def collect(
     start = rows[start_index][0]
     table = completed(kind, system, rows, settings, traces)
     start_index = next(i for i, p in enumerate(table.points) if p is start)
-    return build_branch(kind, table, ends_of(traces), origin, start_index, settings, neutral, notes)
-
-
-def ends_of(traces: Sequence[Trace]) -> list[tuple[str, str]]:
-    """Return how the directions of a curve ended: status and sentence of each."""
-    return [(t.end.status.value, t.end.message) for t in traces]
+    return build_branch(kind, table, traces, origin, start_index, settings, notes)
 
 
 def completed(
@@ -165,11 +159,10 @@ def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
 def build_branch(
     kind: str,
     rows: CurveRows,
-    ends: Sequence[tuple[str, str]],
+    traces: Sequence[Trace],
     origin: str,
     start_index: int,
     settings: Settings,
-    neutral: Sequence[Located] = (),
     notes: Sequence[str] = (),
 ) -> Branch:
     """Return the branch of ordered rows: columns, spectra, labelled special points, provenance."""
@@ -207,14 +200,16 @@ def build_branch(
         special_points=(),
         free={p.name: (p.low, p.high) for p in system.free},
         fixed={k: v for k, v in base.items() if k not in system.names},
-        ends=ends,
+        ends=[(t.end.status.value, t.end.message) for t in traces],
         start="",
         settings={k: v for k, v in asdict(settings).items() if v != math.inf},
         provenance=provenance(problem),
         problem=problem,
         start_index=start_index,
         neutral_saddles=[
-            {n: v for n, v in system.values(e.point.y).items() if n in system.names} for e in neutral
+            {n: v for n, v in system.values(e.point.y).items() if n in system.names}
+            for t in traces
+            for e in t.neutral
         ],
         notes=(*notes, *_springs(rows), *_left_out(rows), *_unexplained(kind, rows, stability, n_unstable)),
         fixed_units={k: u for k, u in unit_of.items() if k in base and k not in system.names},

@@ -148,8 +148,7 @@ def continue_equilibria(
     walker = prepared.walker
     traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
     branch = collect(
-        "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.neutral,
-        prepared.notes,
+        "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.notes
     )
     return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
 
@@ -197,7 +196,6 @@ class _Prepared:
     walker: Walker
     x: Array
     origin: str
-    neutral: list[Located]
     notes: tuple[str, ...]
 
 
@@ -238,12 +236,11 @@ def _prepare(
     if found.failure is not None:
         raise StartError(f"no equilibrium found from {origin}: {found.failure}")
     system = System(problem, values, [Free(parameter, low, high, problem.parameter(parameter).unit)])
-    neutral: list[Located] = []
     walker = equilibrium_walker(
-        system, settings, neutral, zeros or {}, point_stop(problem, system, stop, limits or {})
+        system, settings, zeros or {}, point_stop(problem, system, stop, limits or {})
     )
     way = {"newton": ", by Newton", "located": ""}.get(found.method, ", by damped motion to rest")
-    return _Prepared(walker, found.x, f"from {origin}{way}", neutral, notes)
+    return _Prepared(walker, found.x, f"from {origin}{way}", notes)
 
 
 def hold_rigid_modes(

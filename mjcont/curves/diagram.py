@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.curves.collect import Progress, build_branch, completed, ends_of, ordered_rows, reporter
+from mjcont.curves.collect import Progress, build_branch, completed, ordered_rows, reporter
 from mjcont.curves.continuation import continue_equilibria, find_equilibrium
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
@@ -84,16 +84,15 @@ def _through(
 ) -> Branch | None:
     """Return the branch through a branch point with a given tangent, or None if it cannot be entered."""
     x, y = point.state, system.start_y()
-    neutral: list[Located] = []
-    walker = equilibrium_walker(system, settings, neutral, {})
+    walker = equilibrium_walker(system, settings, {})
     halves: list[Trace] = []
     for sign in (-1.0, 1.0):
         if halves and halves[0].end.status in (Status.CLOSED, Status.INTERRUPTED):
-            halves.append(Trace([], [], halves[0].end))
+            halves.append(Trace([], end=halves[0].end))
             break
         first = _leave(system, x, y, sign * tangent, settings)
         if isinstance(first, Refused):
-            halves.append(Trace([], [], End(Status.NO_START, f"the branch could not be entered: {first}")))
+            halves.append(Trace([], end=End(Status.NO_START, f"the branch could not be entered: {first}")))
             continue
         halves.append(trace(walker, first, reporter(system, progress), [e for h in halves for e in h.special]))
     if not any(h.points for h in halves):
@@ -109,7 +108,7 @@ def _through(
     notes = ["its two halves are mirror images"] if _mirrored(system, minus, plus) else []
     table = completed("equilibria", system, rows, settings, halves)
     index = next(i for i, e in enumerate(table.located) if e is located)
-    return build_branch("equilibria", table, ends_of(halves), f"through {point.label}", index, settings, neutral, notes)
+    return build_branch("equilibria", table, halves, f"through {point.label}", index, settings, notes)
 
 
 def _away(system: System, a: CurvePoint, b: CurvePoint) -> bool:

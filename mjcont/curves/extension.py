@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.curves.collect import Progress, build_branch, completed, ends_of, ordered_rows, reporter
+from mjcont.curves.collect import Progress, build_branch, completed, ordered_rows, reporter
 from mjcont.curves.loci import default_ends, locus_detectors
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
@@ -116,10 +116,9 @@ def _segment(
         return None
     index, before = (keep, keep + 1) if end == "first" else (len(branch) - 1 - keep, len(branch) - 2 - keep)
     system = _system(branch, index, free)
-    neutral: list[Any] = []
     zeros = branch.settings.get("zeros", {})
     if branch.kind == "equilibria":
-        walker = equilibrium_walker(system, settings, neutral, zeros)
+        walker = equilibrium_walker(system, settings, zeros)
     else:
         kind = branch.kind.removesuffix(" locus")
         stop = unfolding_stop(system) if kind == "BP" else None
@@ -129,7 +128,7 @@ def _segment(
     if isinstance(start, Refused):
         return None
     run = trace(walker, start, reporter(walker.system, progress))
-    return _as_branch(branch, system, run, end, settings, neutral, _length(system, branch, index, end))
+    return _as_branch(branch, system, run, end, settings, _length(system, branch, index, end))
 
 
 def _length(system: System, branch: Branch, index: int, end: str) -> float:
@@ -173,7 +172,7 @@ def _outward(system: System, branch: Branch, index: int, before: int, settings: 
 
 
 def _as_branch(
-    branch: Branch, system: System, run: Trace, end: str, settings: Settings, neutral: Sequence[Any], known: float
+    branch: Branch, system: System, run: Trace, end: str, settings: Settings, known: float
 ) -> Branch | None:
     """Return the rows of a run beyond the arclength that is known."""
 
@@ -187,7 +186,7 @@ def _as_branch(
     if not new:
         return None
     rows = rows.chosen(new[::-1] if end == "first" else new)
-    return build_branch(branch.kind, rows, ends_of([run]), branch.start, 0, settings, neutral)
+    return build_branch(branch.kind, rows, [run], branch.start, 0, settings)
 
 
 def _has(branch: Branch, system: System, e: Located) -> bool:

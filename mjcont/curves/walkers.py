@@ -9,7 +9,7 @@ from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.corner import CornerDetector
-from mjcont.numerics.points.events import Detector, Located
+from mjcont.numerics.points.events import Detector
 from mjcont.numerics.points.on_equilibria import (
     BranchPointDetector,
     HopfDetector,
@@ -49,13 +49,13 @@ def point_stop(
 
 
 def equilibrium_detectors(
-    system: System, settings: Settings, neutral: list[Located], zeros: Mapping[str, float]
+    system: System, settings: Settings, zeros: Mapping[str, float]
 ) -> list[Detector]:
     """Return the detectors of a curve of equilibria, the one that guards against other branches first."""
     detectors: list[Detector] = [
         BranchPointDetector(system, settings),
         fold_detector(system, settings),
-        HopfDetector(system, settings, neutral),
+        HopfDetector(system, settings),
         MultipleDetector(system, settings),
     ]
     if system.problem.nonsmooth:
@@ -69,7 +69,6 @@ def equilibrium_detectors(
 def equilibrium_walker(
     system: System,
     settings: Settings,
-    neutral: list[Located],
     zeros: Mapping[str, float],
     stop: Callable[[CurvePoint], str | None] | None = None,
 ) -> Walker:
@@ -78,7 +77,7 @@ def equilibrium_walker(
     They are where points that differ in the parameter are evaluated together, and only dampers resist velocity.
     """
     cheap = system.problem.passive and system.problem.side_by_side(system.names[0])
-    detectors = equilibrium_detectors(system, settings, neutral, zeros)
+    detectors = equilibrium_detectors(system, settings, zeros)
     return Walker((Filled if cheap else OneByOne)(system, settings, detectors), stop)
 
 

@@ -231,7 +231,7 @@ class _Follower:
         forward = 1 if high > low else -1
         free = Free(name, min(low, high), max(low, high), problem.parameter(name).unit)
         system = System(problem, values, [free])
-        detectors = equilibrium_detectors(system, self.settings, [], {})
+        detectors = equilibrium_detectors(system, self.settings, {})
         stepper = OneByOne(system, self.settings, detectors)
         walker = Walker(stepper, _unstable(system, forward), frozenset({"LP", "HB", "BP"}))
         traces = run_directions(walker, at.state, system.start_y(), (float(forward),), None)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -48,7 +49,7 @@ def test_plain_steps_stay_on_the_circle_and_turn_round_it():
 def test_long_steps_are_taken_where_points_inside_are_cheap(cls, kind):
     mechanism = cls.from_xml("overcentre")
     system = System(mechanism, mechanism.values(), [Free("F", -30.0, 30.0)])
-    assert type(equilibrium_walker(system, Settings(), [], {}).stepper) is kind
+    assert type(equilibrium_walker(system, Settings(), {}).stepper) is kind
 
 
 @pytest.mark.parametrize(("model", "parameter"), [("overcentre", "F"), ("four_bar", None)])
@@ -72,11 +73,23 @@ def test_the_walk_without_long_steps_is_exactly_the_plain_one_and_the_filled_one
     system = System(plain, off.parameters_at(off.start_index), [Free(name, low, high, plain.parameter(name).unit)])
     start = first_point(system, off.states[off.start_index], system.start_y(), 1.0, Settings())
     by_hand, h, point = [start], Settings().ds, start
-    stepper = OneByOne(system, Settings(), equilibrium_walker(system, Settings(), [], {}).stepper.detectors)
-    walked = trace(equilibrium_walker(system, Settings(), [], {}), start, None).points
+    stepper = OneByOne(system, Settings(), equilibrium_walker(system, Settings(), {}).stepper.detectors)
+    walked = trace(equilibrium_walker(system, Settings(), {}), start, None).points
     while len(by_hand) < len(walked):
         step = stepper.step(point, h)
         assert not isinstance(step, End)
         point, h = next(i for i in step.items if isinstance(i, CurvePoint)), step.next
         by_hand.append(point)
     assert all(np.array_equal(a.x, b.x) and np.array_equal(a.y, b.y) for a, b in zip(by_hand, walked, strict=True))
+
+
+def test_what_a_monitor_says_of_a_step_does_not_depend_on_what_it_was_asked_before():
+    system = circle()
+    stepper = equilibrium_walker(system, Settings(), {"u[0]": 0.5}).stepper
+    points = trace(equilibrium_walker(system, Settings(), {}), first_point(system, np.ones(1), np.zeros(1), 1.0,
+                                                                           Settings()), None).points
+    for detector in stepper.detectors:
+        forward = [detector.crossed(a, b) for a, b in itertools.pairwise(points)]
+        backward = [detector.crossed(a, b) for a, b in reversed(list(itertools.pairwise(points)))]
+        assert forward == backward[::-1]
+        assert [detector.value(p) for p in points] == [detector.value(p) for p in points]

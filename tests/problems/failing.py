@@ -91,9 +91,8 @@ class Bad:
         """Look for special points with detectors between two points of the curve."""
         found = []
         for d in detectors:
-            d.changed(*self.pair)
-            located = d.locate(*self.pair, [])
-            found += [located] if isinstance(located, Refused) else located
+            d.crossed(*self.pair)
+            found.append(d.locate(*self.pair, []))
         return found
 
     def condition(self, build, aux=0):
@@ -117,7 +116,7 @@ class Bad:
 
 def walk(bad):
     """Return how a walk from a point ends, with all detectors of a curve of equilibria."""
-    stepper = onebyone.OneByOne(bad.system, bad.settings, equilibrium_detectors(bad.system, bad.settings, [], {}))
+    stepper = onebyone.OneByOne(bad.system, bad.settings, equilibrium_detectors(bad.system, bad.settings, {}))
     ends = [item for item in trace.Walker(stepper).walk(bad.point()) if isinstance(item, End)]
     assert len(ends) == 1 and ends[0].message
     return ends[0].status
@@ -169,6 +168,7 @@ CASES = {
     "arclength.remembered": lambda b: arclength.remembered(b.point(), np.zeros(b.n + 1)),
     "arclength.advance": lambda b: arclength.advance(b.system, b.point(), 0.1, b.settings),
     "arclength.next_step": lambda b: arclength.next_step(0.1, b.point(), b.settings),
+    "arclength.follows": lambda b: arclength.follows(*b.pair),
     "arclength.may_turn_twice": lambda b: arclength.may_turn_twice(b.system, *b.pair, 0),
     "arclength.far_below": lambda b: arclength.far_below(np.zeros(1)),
     "arclength.pairs_may_turn_twice": lambda b: arclength.pairs_may_turn_twice(np.zeros(2), np.zeros(2), np.zeros(2)),
@@ -242,7 +242,7 @@ CASES = {
         [on_equilibria.zero_detector(b.system, lambda x, values: math.nan, "x", b.settings)]
     ),
     "on_equilibria.BranchPointDetector": lambda b: b.located([on_equilibria.BranchPointDetector(b.system, b.settings)]),
-    "on_equilibria.HopfDetector": lambda b: b.located([on_equilibria.HopfDetector(b.system, b.settings, [])]),
+    "on_equilibria.HopfDetector": lambda b: b.located([on_equilibria.HopfDetector(b.system, b.settings)]),
     "on_equilibria.MultipleDetector": lambda b: b.located([on_equilibria.MultipleDetector(b.system, b.settings)]),
     "events.bisect": lambda b: events.bisect(b.system, *b.pair, lambda p, q: True, lambda p, q: None, b.settings),
     "events.within": lambda b: events.within(b.system, *b.pair, b.corrected),
@@ -326,13 +326,13 @@ CASES = {
 # records without a computation of their own, and the guard, which has a test below
 PLAIN = {
     "arclength.Earlier", "arclength.CurvePoint", "between.Between", "box.Minimum", "coordinates.Slot", "creep.Crept",
-    "events.Located", "events.Detector", "guard.raise_unexpected",
+    "events.Found", "events.Located", "events.Detector", "guard.raise_unexpected",
     "guard.guarded", "interior.Interior", "interior.Gap", "kinds.Kind", "multistart.Runs",
     "newton.Corrected", "newton.Start",
     "normalform.Crossing", "notes.Noted", "problem.Equations", "problem.Linearization", "problem.Pencil",
     "problem.Stencil", "problem.Varied", "refusals.Refused", "refusals.Why", "settings.Settings",
     "settings.check_numbers", "settings.make_settings",
-    "spectrum.Spectrum", "steps.Status", "steps.End", "steps.Step", "steps.Leap",
+    "spectrum.Spectrum", "steps.Status", "steps.End", "steps.Step", "steps.Neutral", "steps.Leap",
     "system.Free", "system.Local", "system.Condition", "trace.Trace",
 }  # fmt: skip
 BAD = [Bad(kind, n, s) for kind in FIELDS for n in (1, 2) for s in (False, True)]
@@ -347,4 +347,4 @@ def hopf_locus(bad):
     y = full.start_y()
     point = arclength.CurvePoint(bad.x, y, np.zeros(bad.n + full.k), 0.0, full.local(bad.x, y), np.zeros((1, 1)))
     detectors = on_loci.hopf_locus_detectors(full, hopf, bad.settings, lyapunov=True)
-    return [d.changed(point, point) for d in detectors]
+    return [d.crossed(point, point) for d in detectors]

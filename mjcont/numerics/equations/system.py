@@ -157,7 +157,7 @@ def equation_sizes(jacs: Array) -> Array:
     """Return the size of each equation, guarded as in `equation_scale`, from matrices (m, n, n + 1), shape (m, n)."""
     n = jacs.shape[1]
     largest = np.abs(jacs[:, :, :n]).max(axis=2)
-    top = np.maximum(largest.max(axis=1), ROW_GUARD * np.abs(jacs[:, :, n]).max(axis=1))
+    top: Array = np.maximum(largest.max(axis=1), ROW_GUARD * np.abs(jacs[:, :, n]).max(axis=1))
     found: Array = np.maximum(largest, ROW_GUARD * top[:, None])
     return found
 

@@ -16,7 +16,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
-from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.events import Found, Located
 from mjcont.numerics.step.arclength import CurvePoint, advance, point_from, tangent_at
 from mjcont.numerics.step.notes import Note
 
@@ -72,11 +72,15 @@ class CornerDetector:
     system: System
     settings: Settings
 
-    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+    def value(self, point: CurvePoint) -> frozenset[str]:
+        """Return the names of what carries load."""
+        return loaded_at(self.system, point)
+
+    def crossed(self, old: CurvePoint, new: CurvePoint) -> bool:
         """Whether another set of constraints carries load."""
         return loaded_at(self.system, old) != loaded_at(self.system, new)
 
-    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found:
         """Return the corner, by halving the step along the curve."""
         before, after = loaded_at(self.system, old), loaded_at(self.system, new)
         while new.s - old.s > _SHARP:
@@ -84,7 +88,7 @@ class CornerDetector:
             if isinstance(middle, Refused) or not old.s < middle.s < new.s:
                 break
             old, new = (middle, new) if loaded_at(self.system, middle) == before else (old, middle)
-        return [Located("CO", new, new.s - old.s, True, {}, describe(before, after))]
+        return Found([Located("CO", new, new.s - old.s, True, {}, describe(before, after))])
 
 
 def cross(system: System, point: CurvePoint, settings: Settings) -> tuple[CurvePoint, Located] | None:

@@ -45,6 +45,8 @@ _TRUST = 3.0
 
 # whether a point lies inside a long step; whether the user's stop or a limit ended the curve there
 INSIDE, OUTSIDE = Note[bool](), Note[bool]()
+# the point from which a step led to a point; that one's own is forgotten, so that no chain of all points is kept
+BEFORE: Note[CurvePoint] = Note()
 _TURNING_RATE = Note[Array]()
 
 
@@ -262,6 +264,14 @@ def advance(
     if new.angle > settings.angle_max:
         return Refused(Why.TURNED, f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg")
     return new
+
+
+def follows(new: CurvePoint, old: CurvePoint) -> None:
+    """Note that a step led from one point to another."""
+    BEFORE.put(new, old)
+    before = BEFORE.get(old)
+    if before is not None:
+        BEFORE.drop(before)
 
 
 def next_step(h: float, new: CurvePoint, settings: Settings, growth: float = _GROWTH) -> float:

@@ -33,6 +33,10 @@ class Note(Generic[T]):
         """Keep it with a point."""
         point.notes[self] = value
 
+    def drop(self, point: Noted) -> None:
+        """Forget a point's, if it has one."""
+        point.notes.pop(self, None)
+
     def of(self, point: Noted, find: Callable[[], T]) -> T:
         """Return a point's, found out where it has none."""
         if self not in point.notes:

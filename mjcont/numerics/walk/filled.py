@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.spectra.stability import negative_stiffness, tell
-from mjcont.numerics.step.arclength import CurvePoint, advance, aim, predict, turned_back
+from mjcont.numerics.step.arclength import CurvePoint, advance, aim, follows, predict, turned_back
 from mjcont.numerics.walk.interior import Interior
 from mjcont.numerics.walk.longsteps import LongSteps
 from mjcont.numerics.walk.onebyone import OneByOne
@@ -115,22 +115,24 @@ class Filled(OneByOne):
     def _looked_inside(self, leap: Leap, inside: Interior) -> Step | Refused:
         """Look for special points between the points of a step: between all of them, or where something changes."""
         every = [leap.old, *inside.points, leap.new]
-        located: list[Located] = []
+        located, neutral = list[Located](), list[Located]()
         for i, j in self._long.spans(leap.old, leap.new, inside):
+            follows(every[j], every[i])
             found = self.between(every[i], every[j], self.detectors)
             if isinstance(found, Refused):
                 return replace(found, shorter=_SHORTER * leap.h)
-            located += found
-            if j > i + 1 and not found:
+            located += found.located
+            neutral += found.neutral
+            if j > i + 1 and not found.located:
                 tell(every[i], every[i + 1 : j], every[j])
         others = [d for d in self.detectors if not d.structural]
         for a, b in itertools.pairwise(every) if others else ():
             found = self.between(a, b, others)
             if isinstance(found, Refused):
                 return replace(found, shorter=_SHORTER * leap.h)
-            located += found
+            located += found.located
         self.learn(leap)
         items: list[CurvePoint | Located] = [*every[1:]]
         if located:
             items = sorted([*located, *items], key=lambda e: e.point.s if isinstance(e, Located) else e.s)
-        return Step(items, 0.0, leap.ending)
+        return Step(items, 0.0, leap.ending, neutral)

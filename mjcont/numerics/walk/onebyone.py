@@ -13,12 +13,13 @@ from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.corner import NEAR, cross
-from mjcont.numerics.points.events import Detector, Located
+from mjcont.numerics.points.events import Detector, Found, Located
 from mjcont.numerics.step.arclength import (
     CurvePoint,
     advance,
     aim,
     by_contraction,
+    follows,
     land,
     may_turn_beyond,
     may_turn_twice,
@@ -113,11 +114,12 @@ class OneByOne:
         old, new, h = leap.old, leap.new, leap.h
         if not self.system.conditions and h > _SMALL_FOLDS and may_turn_twice(self.system, old, new, 0):
             return Refused(Why.TURNS_TWICE, "the parameter may turn twice", _SHORTER * h)
-        located = self.between(old, new, self.detectors)
-        if isinstance(located, Refused):
-            return replace(located, shorter=_SHORTER * h)
+        follows(new, old)
+        found = self.between(old, new, self.detectors)
+        if isinstance(found, Refused):
+            return replace(found, shorter=_SHORTER * h)
         self.learn(leap)
-        return Step([*located, new], next_step(h, new, self.settings), leap.ending)
+        return Step([*found.located, new], next_step(h, new, self.settings), leap.ending, found.neutral)
 
     def learn(self, leap: Leap) -> None:
         """Take derivatives at the predictions from now on where the last point's did not serve a short step."""
@@ -125,14 +127,15 @@ class OneByOne:
         stale = bool(self.system.conditions) and new.contraction > _STALE
         self._fresh |= short and by_contraction(new) < 1.0 and (new.iterations > _MANY or stale)
 
-    def between(self, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector]) -> list[Located] | Refused:
+    def between(self, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector]) -> Found | Refused:
         """Return the special points between two points of the curve in order, or why the step is to be shorter."""
-        located: list[Located] = []
+        located, neutral = list[Located](), list[Located]()
         for detector in detectors:
-            found = detector.locate(old, new, located) if detector.changed(old, new) else []
+            found = detector.locate(old, new, located) if detector.crossed(old, new) else Found()
             if isinstance(found, Refused):
                 return found
-            located += found
+            located += found.located
+            neutral += found.neutral
         branch_points = [e.point.s for e in located if e.kind == "BP"]
         if branch_points:
             folds = [e for e in located if e.kind == "LP"]
@@ -140,7 +143,7 @@ class OneByOne:
             located = [e for e in located if e not in same]
         if not located and new.s - old.s > _SMALL_FOLDS and may_turn_beyond(self.system, old, new):
             return Refused(Why.TURNS_TWICE, "a parameter may turn beyond its bound")
-        return sorted(located, key=lambda e: e.point.s)
+        return Found(sorted(located, key=lambda e: e.point.s), neutral)
 
     def _where(self, point: CurvePoint) -> str:
         free = zip(self.system.free, point.y.tolist(), strict=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -44,11 +45,23 @@ class Step:
     items : points and special points in order, the step's end last.
     next : length of the step after it.
     ending : the end of the curve, if a bound is met at the step's end.
+    neutral : neutral saddles within.
     """
 
     items: list[CurvePoint | Located]
     next: float
     ending: End | None = None
+    neutral: Sequence[Located] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Neutral:
+    """A neutral saddle that a walk passes: two real eigenvalues of opposite sign, no special point."""
+
+    located: Located
+
+
+Item = CurvePoint | Located | Neutral | End
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ from mjcont.numerics.points.events import Located
 from mjcont.numerics.step.arclength import OUTSIDE, CurvePoint
 from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.onebyone import OneByOne
-from mjcont.numerics.walk.steps import End, Status, Step
+from mjcont.numerics.walk.steps import End, Item, Neutral, Status, Step
 
 # a curve that ends on the bound where it is already adds no second point there
 _SAME_POINT = 1e-9
@@ -31,10 +31,11 @@ _SAME_LOCATED = 1e-7
 
 @dataclass(slots=True)
 class Trace:
-    """One direction of a curve: its points from the start on, special points, and how it ended."""
+    """One direction of a curve: its points from the start on, special points, neutral saddles, and how it ended."""
 
     points: list[CurvePoint] = field(default_factory=list)
     special: list[Located] = field(default_factory=list)
+    neutral: list[Located] = field(default_factory=list)
     end: End = field(default_factory=lambda: End(Status.STOPPED, "not started"))
 
 
@@ -67,7 +68,7 @@ class Walker:
         """The settings of the walk."""
         return self.stepper.settings
 
-    def walk(self, start: CurvePoint, known: Sequence[Located] = ()) -> Iterator[CurvePoint | Located | End]:
+    def walk(self, start: CurvePoint, known: Sequence[Located] = ()) -> Iterator[Item]:
         """Yield the curve's points after `start`, special points before the point that follows them, and the end.
 
         `known` are special points of the same curve found before, in the other direction: none is found twice.
@@ -75,8 +76,6 @@ class Walker:
         settings, began = self.settings, time.monotonic()
         point, h, count = start, self.stepper.begin(start), 1
         steps = deque[Step | End]()
-        for detector in self.stepper.detectors:
-            detector.changed(point, point)
         every = list(known)
         periods = self._periods(start)
         largest = settings.max_size * max(1.0, self._size(start))
@@ -91,6 +90,7 @@ class Walker:
             if isinstance(step, End):
                 yield step
                 return
+            yield from map(Neutral, step.neutral)
             passes = step.ending is None and self._may_pass(start, point, step, periods)
             for item in step.items:
                 if isinstance(item, Located):
@@ -189,7 +189,7 @@ class Walker:
 def trace(
     walker: Walker,
     start: CurvePoint,
-    progress: Callable[[CurvePoint | Located | End], None] | None,
+    progress: Callable[[Item], None] | None,
     known: Sequence[Located] = (),
 ) -> Trace:
     """Collect a walk; an interrupt (Ctrl-C) ends it and keeps what there is. `known` as for `Walker.walk`."""
@@ -198,6 +198,8 @@ def trace(
         for item in guarded(walker.walk(start, known)):
             if isinstance(item, End):
                 result.end = item
+            elif isinstance(item, Neutral):
+                result.neutral.append(item.located)
             elif isinstance(item, Located):
                 result.special.append(item)
             else:
