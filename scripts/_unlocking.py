@@ -15,12 +15,9 @@ import numpy as np
 from _gusts import Aircraft, Gust, one_minus_cos
 
 import mjcont as mc
+from mjcont.drawing.plotting import COLORS
 from mjcont.numerics.equations.problem import Array
 
-STOWED = 4.0e5  # N: the gear rests there both locked and unlocked, so that it shows what it has become
-OVERTRAVEL = 5.0e5  # N: 3 % above the cusp; one rest is left there, which the unlock force moves across overcentre
-CAPACITY = 5.8e5  # N: 20 % above the cusp, where a force that waits for a position stops growing
-RELEASE = 4.5e5  # N: 5 % below the fold without unlock force; released above that, the gear has no rest unlocked
 RETRACTION_RATE = 2.0e4  # N/s: a retraction in about 25 s; the strut swings at about 2 rad/s
 UNLOCK_RATE = 1.0e3  # N/s: a valve that opens within half a second
 THRESHOLD = np.radians(5.0)  # a proximity sensor that sees the locklinks just past overcentre
@@ -35,12 +32,44 @@ SAMPLES = 420  # every 0.05 s
 # Before a whole sequence's unlocking: retract with the downlock pulled open, lock above the fold, go to the hold.
 DOWNLOCK_PULL = 1000.0  # N: the actuator's limit; 700 N pulls the locklinks overcentre, but not clear of the fold
 WHOLE_BEGIN, WHOLE_DURATION = 40.0, 85.0  # s
-SCHEDULE = (3.0, 3.0 + OVERTRAVEL / RETRACTION_RATE, 32.0, 32.0 + (OVERTRAVEL - STOWED) / RETRACTION_RATE)
 PULLED = (1.0, 1.0 + DOWNLOCK_PULL / UNLOCK_RATE, 15.0, 15.0 + DOWNLOCK_PULL / UNLOCK_RATE)
 
 HOLD, RAISE, FALL, EXTEND = range(4)
 MEASURES = ("position", "force", "scheduled")
-OUTCOMES = ("unlocked", "stuck", "re-locked")
+OUTCOMES = ("unlocked", "stuck", "re-locked", "let go")
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """The retraction forces of a gear's sequence, in N.
+
+    Attributes
+    ----------
+    stowed : the gear rests there both locked and unlocked, so that it shows what it has become.
+    overtravel : 3 % above the cusp; the unlock force moves the one rest that is left there across overcentre.
+    capacity : 20 % above the cusp, where a force that waits for a position stops growing.
+    release : 5 % below the fold without unlock force; released above that, the gear has no rest unlocked.
+    lowest : theta_ov in rad below which the stowed gear has let go of its lock.
+    """
+
+    stowed: float
+    overtravel: float
+    capacity: float
+    release: float
+    lowest: float = -np.inf
+
+    @property
+    def schedule(self) -> tuple[float, float, float, float]:
+        """Times in s at which F_ret starts to grow, has grown, starts to fall, and is at the hold."""
+        return (3.0, 3.0 + self.overtravel / RETRACTION_RATE, 32.0,
+                32.0 + (self.overtravel - self.stowed) / RETRACTION_RATE)
+
+
+PLANS = {
+    "nose_gear": Plan(4.0e5, 5.0e5, 5.8e5, 4.5e5),
+    # the hold is 4 % above FP2; a gear that lets go comes to rest near -49 deg
+    "nose_gear_locking": Plan(4.7e5, 5.3e5, 6.2e5, 4.88e5, np.radians(-30.0)),
+}
 
 
 @dataclass(slots=True)
@@ -49,18 +78,20 @@ class Sequencer:
 
     Attributes
     ----------
+    plan : the gear's retraction forces.
     measure : "position" ends the pull when theta_ov passes THRESHOLD, F_ul and F_ret then fall together; "scheduled"
         does so too but keeps F_ul until F_ret is below `release`; "force" asks for F_ret and F_ul only.
     unlock : (m,) size of the unlock force in N.
     fall : rate in N/s at which F_ret falls after unlocking; a number or (m,).
-    release : F_ret in N below which F_ul is released, where it waits for that; a number or (m,).
+    release : F_ret in N below which F_ul is released, where it waits for that; a number or (m,), default the plan's.
     whole : whether retraction and uplock come before, and extension after.
     """
 
+    plan: Plan
     measure: str
     unlock: Array
     fall: Any = RETRACTION_RATE
-    release: Any = RELEASE
+    release: Any = None
     whole: bool = False
     phase: Array = field(init=False)
     f_ret: Array = field(init=False)
@@ -70,15 +101,17 @@ class Sequencer:
     def __post_init__(self) -> None:
         """Begin in the hold, or extended."""
         m = len(self.unlock)
+        self.release = self.plan.release if self.release is None else self.release
         self.phase, self.waited = np.full(m, HOLD), np.zeros(m)
-        self.f_ret, self.f_ul = np.full(m, 0.0 if self.whole else STOWED), np.zeros(m)
+        self.f_ret, self.f_ul = np.full(m, 0.0 if self.whole else self.plan.stowed), np.zeros(m)
 
     def step(self, time: float, theta_ov: Array) -> None:
         """Go on by one control step."""
         begin = WHOLE_BEGIN if self.whole else BEGIN
         if time < begin - 0.5 * CONTROL_STEP:
             if self.whole:
-                self.f_ret[:] = np.interp(time, SCHEDULE, (0.0, OVERTRAVEL, OVERTRAVEL, STOWED))
+                high, hold = self.plan.overtravel, self.plan.stowed
+                self.f_ret[:] = np.interp(time, self.plan.schedule, (0.0, high, high, hold))
                 self.f_ul[:] = np.interp(time, PULLED, (0.0, -DOWNLOCK_PULL, -DOWNLOCK_PULL, 0.0))
             return
         self.phase = np.maximum(self.phase, RAISE)
@@ -86,7 +119,7 @@ class Sequencer:
         self.phase = np.where((self.phase == RAISE) & ready, FALL, self.phase)
         self._move(self._pulling())
         if self.whole:
-            stowed = (self.phase == FALL) & (self.f_ret <= STOWED) & (self.f_ul == 0.0)
+            stowed = (self.phase == FALL) & (self.f_ret <= self.plan.stowed) & (self.f_ul == 0.0)
             self.waited = np.where(stowed, self.waited + CONTROL_STEP, self.waited)
             self.phase = np.where(stowed & (self.waited > SETTLE), EXTEND, self.phase)
 
@@ -94,7 +127,7 @@ class Sequencer:
         """Return where the measure says unlocked, or patience ends."""
         if self.measure != "force":
             return np.asarray((theta_ov > THRESHOLD) | (since > PATIENCE))
-        full = (self.phase == RAISE) & (self.f_ret >= OVERTRAVEL) & (-self.f_ul >= self.unlock)
+        full = (self.phase == RAISE) & (self.f_ret >= self.plan.overtravel) & (-self.f_ul >= self.unlock)
         self.waited = np.where(full, self.waited + CONTROL_STEP, self.waited)
         done = (self.phase == RAISE) & (self.waited >= DWELL)
         self.waited = np.where(done, 0.0, self.waited)
@@ -108,11 +141,11 @@ class Sequencer:
         kept = falling & (self.f_ret > self.release)
         if self.measure == "scheduled":
             return raising | kept
-        return np.asarray((raising & (self.f_ret >= OVERTRAVEL)) | kept)
+        return np.asarray((raising & (self.f_ret >= self.plan.overtravel)) | kept)
 
     def _move(self, pulling: Array) -> None:
-        ceiling = OVERTRAVEL if self.measure == "force" else CAPACITY
-        target = np.select([self.phase == RAISE, self.phase == EXTEND], [ceiling, 0.0], STOWED)
+        ceiling = self.plan.overtravel if self.measure == "force" else self.plan.capacity
+        target = np.select([self.phase == RAISE, self.phase == EXTEND], [ceiling, 0.0], self.plan.stowed)
         rate = np.where(self.phase == FALL, self.fall, RETRACTION_RATE)
         self.f_ret = _towards(self.f_ret, target, rate * CONTROL_STEP)
         self.f_ul = _towards(self.f_ul, np.where(pulling, -self.unlock, 0.0), UNLOCK_RATE * CONTROL_STEP)
@@ -140,6 +173,7 @@ class Law:
 class Runs:
     """Runs of one measure: unlock forces (m,), histories, and outcomes as places in OUTCOMES, (m,)."""
 
+    plan: Plan
     measure: str
     unlock: Array
     histories: Sequence[mc.History]
@@ -151,7 +185,7 @@ class Runs:
         for h in self.histories:
             theta = h["theta_ov"]
             passed = bool(np.any(theta > THRESHOLD))
-            found.append(0 if theta[-1] > 0 else 2 if passed else 1)
+            found.append(0 if theta[-1] > 0 else 3 if theta[-1] < self.plan.lowest else 2 if passed else 1)
         return np.array(found)
 
     @property
@@ -172,27 +206,29 @@ def unlock_runs(
     gusts: Sequence[Gust | None] | None = None,
     *,
     fall: Any = RETRACTION_RATE,
-    release: Any = RELEASE,
+    release: Any = None,
     timestep: float = TIMESTEP,
 ) -> Runs:
     """Return runs of the unlocking alone from the stowed gear, one for each unlock force (m,) and gust."""
     unlock = np.asarray(unlock, dtype=float)
-    laws = {a: Law(a, Sequencer(measure, unlock, fall, release)) for a in ("F_ret", "F_ul")}
+    plan = PLANS[start.problem.name]
+    laws = {a: Law(a, Sequencer(plan, measure, unlock, fall, release)) for a in ("F_ret", "F_ul")}
     felt = gusts if gusts is not None else [None] * len(unlock)
     cases = [{"inputs": {**laws, **(g.inputs if g else {})}, "start": start} for g in felt]
     options = {"timestep": timestep, "control_step": CONTROL_STEP, "samples": SAMPLES}
-    return Runs(measure, unlock, mc.simulate_many(start.problem, cases, DURATION, **options))  # type: ignore[arg-type]
+    return Runs(plan, measure, unlock, mc.simulate_many(start.problem, cases, DURATION, **options))  # type: ignore[arg-type]
 
 
 def whole_runs(gear: mc.Mechanism, measure: str, unlock: Array, gusts: Sequence[Gust | None]) -> Runs:
     """Return runs of retraction, uplock, unlocking and extension, from the gear locked down."""
     start = mc.find_equilibrium(gear, keyframe="downlock_below")
-    laws = {a: Law(a, Sequencer(measure, np.asarray(unlock, dtype=float), whole=True)) for a in ("F_ret", "F_ul")}
+    unlock, plan = np.asarray(unlock, dtype=float), PLANS[gear.name]
+    laws = {a: Law(a, Sequencer(plan, measure, unlock, whole=True)) for a in ("F_ret", "F_ul")}
     cases = [{"inputs": {**laws, **(g.inputs if g else {})}, "start": start} for g in gusts]
     histories = mc.simulate_many(
         gear, cases, WHOLE_DURATION, timestep=TIMESTEP, control_step=CONTROL_STEP, samples=1700
     )
-    return Runs(measure, np.asarray(unlock), histories)
+    return Runs(plan, measure, unlock, histories)
 
 
 @dataclass(frozen=True, slots=True)
@@ -248,3 +284,19 @@ def chart(
     return Chart(
         measure, velocities, unlock, arrivals, runs.outcomes.reshape(shape), runs.peaks.reshape(shape)
     )
+
+
+def draw_chart(figure: Any, ax: Any, chart: Chart, limit: float) -> None:
+    """Draw the part of arrival times that ends unlocked, and the unlock force that statics asks for."""
+    mesh = ax.pcolormesh(chart.velocities, chart.unlock, chart.unlocked.T, cmap="Blues", vmin=0.0, vmax=1.0,
+                         shading="nearest", edgecolors="white", linewidth=0.4)
+    ax.axhline(limit, color=COLORS[1], linestyle="--", linewidth=1.4)
+    ax.grid(False)
+    ax.set(xlabel="peak gust velocity [m/s], up positive", ylabel="unlock force [N]")
+    figure.colorbar(mesh, ax=ax)
+
+
+def counts(outcomes: Array) -> str:
+    """Return how many runs had which outcome."""
+    found = [(int(np.sum(outcomes == k)), name) for k, name in enumerate(OUTCOMES)]
+    return ", ".join(f"{n} {name}" for n, name in found if n)

@@ -23,10 +23,8 @@ from _loci import Case
 from _unlocking import (
     DURATION,
     MEASURES,
-    OUTCOMES,
-    OVERTRAVEL,
+    PLANS,
     RETRACTION_RATE,
-    STOWED,
     THRESHOLD,
     TIMESTEP,
     WHOLE_BEGIN,
@@ -34,6 +32,8 @@ from _unlocking import (
     Chart,
     Runs,
     chart,
+    counts,
+    draw_chart,
     unlock_runs,
     whole_runs,
 )
@@ -51,6 +51,7 @@ SIGMA, SCALE = 1.5, 150.0  # m/s and m: moderate turbulence at 150 m, where the 
 ARRIVALS = (4.0, 6.0, 8.0)  # s: gusts whose peak meets the rise, the unlock force, and the fall of F_ret
 RELEASES = (4.6e5, 4.5e5, 4.4e5, 4.3e5, 4.2e5, 4.1e5)  # N
 AIRCRAFT = Aircraft()
+PLAN = PLANS["nose_gear"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +98,7 @@ def compute(size: Size) -> Study:
     """Compute everything, each group of runs in one batch."""
     gear = mc.Mechanism.from_xml("nose_gear")
     case = Case.of(gear, 1.0, 0.0)
-    stowed = mc.find_equilibrium(gear, {"F_ret": STOWED}, keyframe="uplock_below")
+    stowed = mc.find_equilibrium(gear, {"F_ret": PLAN.stowed}, keyframe="uplock_below")
     limit = -case.cusp["F_ul"]
     near = limit + np.linspace(-10.0, 10.0, size.still)
     velocities = np.linspace(-HIGH_LIFT_GUST, HIGH_LIFT_GUST, size.velocities)
@@ -152,21 +153,12 @@ def _draw(study: Study, path: Path) -> None:
         ax.legend(frameon=True, framealpha=0.9, edgecolor="none", fontsize=8, loc="lower left")
         set_panel_title(ax, f"({panel})  {measure} measure, {UNLOCK:g} N; shaded: unlocking")
     for ax, panel, measure in zip(axes[1], "cd", MEASURES, strict=False):
-        _draw_chart(figure, ax, study.charts[measure], -study.cusp["F_ul"])
+        draw_chart(figure, ax, study.charts[measure], -study.cusp["F_ul"])
         set_panel_title(ax, f"({panel})  {measure} measure: part unlocked")
     _draw_peaks(axes[2, 0], study)
-    _draw_chart(figure, axes[2, 1], study.charts["scheduled"], -study.cusp["F_ul"])
+    draw_chart(figure, axes[2, 1], study.charts["scheduled"], -study.cusp["F_ul"])
     set_panel_title(axes[2, 1], "(f)  position measure, scheduled: part unlocked")
     save_figure(figure, path)
-
-
-def _draw_chart(figure: Any, ax: Any, chart: Chart, limit: float) -> None:
-    mesh = ax.pcolormesh(chart.velocities, chart.unlock, chart.unlocked.T, cmap="Blues", vmin=0.0, vmax=1.0,
-                         shading="nearest", edgecolors="white", linewidth=0.4)
-    ax.axhline(limit, color=COLORS[1], linestyle="--", linewidth=1.4)
-    ax.grid(False)
-    ax.set(xlabel="peak gust velocity [m/s], up positive", ylabel="unlock force [N]")
-    figure.colorbar(mesh, ax=ax)
 
 
 def _draw_peaks(ax: Any, study: Study) -> None:
@@ -183,11 +175,6 @@ def _draw_peaks(ax: Any, study: Study) -> None:
 
 
 # --- findings
-
-
-def _counts(outcomes: Array) -> str:
-    found = [(int(np.sum(outcomes == k)), name) for k, name in enumerate(OUTCOMES)]
-    return ", ".join(f"{n} {name}" for n, name in found if n)
 
 
 def _deg(history: mc.History, column: str, time: float) -> float:
@@ -232,7 +219,7 @@ def _couples(study: Study) -> Finding:
     return Finding(
         "A position measure couples the actuators: past overcentre the retraction force drives the locklinks back when "
         "the unlock force is released.",
-        f"in still air {_counts(np.concatenate([runs.outcomes, calm[:, 0]]))}, for forces up to "
+        f"in still air {counts(np.concatenate([runs.outcomes, calm[:, 0]]))}, for forces up to "
         f"{chart.unlock[-1]:.0f} N: the sensor sees {np.degrees(THRESHOLD):.0f} deg, but without unlock force the gear "
         f"rests above overcentre only beyond theta_ov = {angle_of(study.fold):.1f} deg and below F_ret = "
         f"{study.fold['F_ret'] / 1e3:.1f} kN. Rates of release of F_ret that would do at {UNLOCK:g} N, of "
@@ -261,7 +248,7 @@ def _gusts(study: Study) -> Finding:
     for v, n in zip(chart.velocities, chart.needed, strict=True):
         if np.isnan(n):
             worst = chart.outcomes[np.flatnonzero(chart.velocities == v)[0], -1]
-            shown.append(f"{v:+.1f} m/s: not sure up to {chart.unlock[-1]:.0f} N ({_counts(worst)} there)")
+            shown.append(f"{v:+.1f} m/s: not sure up to {chart.unlock[-1]:.0f} N ({counts(worst)} there)")
         else:
             shown.append(f"{v:+.1f} m/s: {n:.0f} N ({100.0 * (n / limit - 1.0):+.0f} %)")
     times = np.arange(0.0, DURATION, 0.02)
@@ -282,7 +269,7 @@ def _gusts(study: Study) -> Finding:
 
 
 def _turbulence(study: Study) -> Finding:
-    shown = [f"{m}: {_counts(study.rough[m].outcomes)}" for m in MEASURES]
+    shown = [f"{m}: {counts(study.rough[m].outcomes)}" for m in MEASURES]
     unlocked = {m: int(np.sum(study.rough[m].outcomes == 0)) for m in MEASURES}
     return Finding(
         "In moderate turbulence the force measure unlocks more surely than the position measure.",
@@ -302,7 +289,7 @@ def _peak(study: Study) -> Finding:
         f"position measure at {chart.unlock[row]:.0f} N: {calm / 1e3:.1f} kN in still air, from "
         f"{peaks[j, m] / 1e3:.1f} kN ({chart.velocities[j]:+.1f} m/s, gust from {ARRIVALS[m]:g} s) to "
         f"{peaks[i, k] / 1e3:.1f} kN ({chart.velocities[i]:+.1f} m/s, from {ARRIVALS[k]:g} s). "
-        f"By the force measure it is {OVERTRAVEL / 1e3:.0f} kN whatever the gust",
+        f"By the force measure it is {PLAN.overtravel / 1e3:.0f} kN whatever the gust",
         bool(peaks.max() > 1.01 * calm),
     )
 

@@ -95,15 +95,16 @@ def evaluation_copy(model: mujoco.MjModel) -> mujoco.MjModel:
     Its integrator is one for which qacc is the forward-dynamics acceleration, its solver is not cut short for speed,
     sensors are off, and controls are never clamped (bounds outside a ctrlrange are refused before). Controls have
     reached their actuators, and dry friction is off. `model` itself, which observables are read from, loses what delays
-    controls and filters sensors.
+    controls and filters sensors; forces are read with such an integrator, too.
     """
     model.actuator_delay[:] = 0.0
+    discrete = model.opt.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     private = copy_model(model)
     # time histories with "discrete" clamp no equality's time constant, those with other integrators do
     if np.any((model.eq_solref[:, 0] > 0) & (model.eq_solref[:, 0] < 2.0 * model.opt.timestep)):
-        if model.opt.integrator == mujoco.mjtIntegrator.mjINT_DISCRETE:
+        if discrete:
             private.opt.disableflags |= int(_DISABLE.mjDSBL_REFSAFE)
-    private.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     private.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
     private.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # sparse constraint Jacobians are wrong in MuJoCo 4.0.0
     private.opt.disableflags |= int(_DISABLE.mjDSBL_SENSOR) | int(_DISABLE.mjDSBL_CLAMPCTRL)

@@ -39,13 +39,19 @@ def shipped_models() -> list[str]:
     return sorted(p.stem for p in models_folder().glob("*.xml"))
 
 
+def located(source: str | Path) -> Path:
+    """Return the file of a path or of a shipped model's name, whether there is one or not."""
+    path = Path(source)
+    if not path.is_file() and path.parent == Path() and not path.suffix:
+        return models_folder() / f"{path.name}.xml"
+    return path
+
+
 def read_source(source: str | Path) -> tuple[str, Path | None]:
     """Return the XML text of a path, of a shipped model's name, or of text itself, and its folder."""
     if isinstance(source, str) and source.lstrip().startswith("<"):
         return source, None
-    path = Path(source)
-    if not path.is_file() and path.parent == Path() and not path.suffix:
-        path = models_folder() / f"{path.name}.xml"
+    path = located(source)
     if not path.is_file():
         shipped = ", ".join(shipped_models()) or "none"
         what = "is a folder, not a file" if Path(source).is_dir() else "no such file"
@@ -89,7 +95,7 @@ def load(source: str | Path) -> Loaded:
     The XML is the text as written, or flattened where it needs other files; what needs a missing file is left out.
     """
     text, folder = read_source(source)
-    spec = parse(text, folder, "XML text" if folder is None else str(source))
+    spec = parse(text, folder, "XML text" if folder is None else str(located(source)))
     place = (folder or Path()).resolve()
     kept, dropped = assets.read_notes(spec), assets.drop_missing(spec, place)
     rewritten = assets.anchor_files(spec, place) or bool(dropped) or bool(_OTHER_FILES.search(text))

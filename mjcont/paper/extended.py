@@ -16,6 +16,8 @@ from mjcont.paper.reproduce import ReproduceResult, available, draw
 # Name of the script and what it does, in the order of the report.
 STUDIES: Mapping[str, str] = {
     "unlocking": "unlocking the nose gear in gusts, by position and by force",
+    "locking": "locking and unlocking the gear that locks along load paths, and a lock with a stop",
+    "locking_gusts": "unlocking the gear that locks in gusts, and what a stop is good for",
     "load_map": "the gear's retraction and unlock force over gravity angle and load factor, and their worst cases",
     "tolerances": "how the gear's forces scatter within tolerances, against the linear estimate",
 }

@@ -5,7 +5,7 @@ import math
 import mujoco
 import numpy as np
 import pytest
-from problems.stops import IMPEDANCE, LOWER, STIFFNESS, UPPER, pendulum_with_stops
+from problems.stops import DAMPING, IMPEDANCE, LOWER, STIFFNESS, UPPER, pendulum_with_stops
 
 import mjcont as mc
 
@@ -161,3 +161,19 @@ def test_a_ball_on_the_floor_moves_as_its_contact_has_it():
     ratio = IMPEDANCE / ((1.0 - IMPEDANCE) * weight * 2.0)
     expected = np.roots([1.0 + ratio, ratio * 2000.0 / IMPEDANCE, ratio * 1e6 / IMPEDANCE])
     assert np.sort(point.eigenvalues.real) == pytest.approx(np.sort(expected), rel=1e-4)
+
+
+@pytest.mark.parametrize("integrator", ["Euler", "implicitfast", "discrete"])
+def test_the_load_on_a_stop_is_read_as_it_is_at_rest_whatever_the_integrator(integrator):
+    soft = f'solreflimit="{-STIFFNESS} {-DAMPING}" solimplimit="{IMPEDANCE} {IMPEDANCE} 0.001 0.5 2"'
+    mechanism = mc.Mechanism.from_xml(
+        f"""<mujoco model="stop"><compiler angle="radian"/>
+        <option gravity="0 0 0" integrator="{integrator}" timestep="0.01"/>
+        <worldbody><body><joint name="q" axis="0 1 0" stiffness="50" damping="5" range="-1 {UPPER}" {soft}/>
+        <inertial pos="0 0 1" mass="1" diaginertia="1e-6 1e-6 1e-6"/></body></worldbody>
+        <actuator><general name="M" joint="q"/></actuator>
+        <sensor><jointlimitfrc name="load" joint="q"/></sensor></mujoco>"""
+    )
+    (point,) = mc.continue_equilibria(mechanism, "M", bounds=(0.0, 100.0)).at(M=80.0)
+    assert point["load"] == pytest.approx(80.0 - 50.0 * point["q"], rel=1e-7)
+    assert point["load"] > 50.0

@@ -20,6 +20,7 @@ _gusts = importlib.import_module("_gusts")
 _unlocking = importlib.import_module("_unlocking")
 
 CUSP = 411.808  # N
+PLAN = _unlocking.PLANS["nose_gear"]
 AIRCRAFT = _gusts.Aircraft()
 TIMES = np.arange(0.0, 21.0, 0.02)
 
@@ -28,7 +29,7 @@ TIMES = np.arange(0.0, 21.0, 0.02)
 def stowed():
     """Return the gear at rest, locked up."""
     gear = mc.Mechanism.from_xml("nose_gear")
-    return mc.find_equilibrium(gear, {"F_ret": _unlocking.STOWED}, keyframe="uplock_below")
+    return mc.find_equilibrium(gear, {"F_ret": PLAN.stowed}, keyframe="uplock_below")
 
 
 def test_a_step_of_air_lifts_at_once_and_fades_with_the_time_constant():
@@ -78,11 +79,11 @@ def test_the_position_measure_locks_again_unless_the_unlock_force_is_kept(stowed
 def test_both_actuators_follow_one_sequence(stowed):
     (history,) = _unlocking.unlock_runs(stowed, "force", np.array([500.0])).histories
     pulling = history["F_ul"] < -1.0
-    assert history["F_ret"].max() == pytest.approx(_unlocking.OVERTRAVEL)
+    assert history["F_ret"].max() == pytest.approx(PLAN.overtravel)
     assert history["F_ul"].min() == pytest.approx(-500.0)
-    assert history["F_ret"][np.flatnonzero(pulling)[0]] == pytest.approx(_unlocking.OVERTRAVEL)
+    assert history["F_ret"][np.flatnonzero(pulling)[0]] == pytest.approx(PLAN.overtravel)
     falling = np.diff(history["F_ul"], append=0.0) > 1.0
-    assert history["F_ret"][falling].max() <= _unlocking.RELEASE + 2e3
+    assert history["F_ret"][falling].max() <= PLAN.release + 2e3
 
 
 @pytest.mark.long

@@ -13,7 +13,7 @@ from scipy import sparse
 import mjcont as mc
 
 NASTY = (0.0, -0.0, 1e-300, -1e-12, 1e-9, 1.0, -3.0, 1e6, 1e12, 1e300, -1e300, math.nan, math.inf, -math.inf)
-SHORT = {"max_points": 12, "max_seconds": 3.0}
+SHORT = {"max_points": 10, "max_seconds": 3.0, "ds_min": 1e-3}  # a curve that cannot go on says so soon
 
 
 def run(seed):
@@ -147,7 +147,7 @@ def verb(rng, problem, name):
     if which == "equilibrium":
         return mc.find_equilibrium(problem, start)
     if which == "equilibria":
-        return mc.find_equilibria(problem, start, starts=8, max_starts=8, max_seconds=3.0)
+        return mc.find_equilibria(problem, start, starts=6, max_starts=6, max_seconds=3.0)
     if which == "diagram":
         starts = [] if rng.random() < 0.1 else start
         return mc.bifurcation_diagram(problem, name, bounds, starts, max_branches=3, **options(rng))
@@ -165,10 +165,10 @@ def after(rng, problem, branch, name):
     choice = rng.integers(4)
     if choice == 0 and points and others:
         point = points[int(rng.integers(len(points)))]
-        locus = mc.continue_special(point, str(rng.choice(others)), max_points=12, max_seconds=5.0)
+        locus = mc.continue_special(point, str(rng.choice(others)), **SHORT)
         return str(locus)
     if choice == 1:
         return mc.sensitivities(points[0] if points else branch.row(0))
     if choice == 2:
-        return mc.extend(branch, max_points=10)
+        return mc.extend(branch, **SHORT)
     return branch.at(**{name: float(np.mean(branch[name]))})

@@ -9,7 +9,7 @@ difference derivatives.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -40,6 +40,7 @@ class Spectrum:
     n_unstable : number of eigenvalues with positive real part beyond the noise.
     noise : (N,) how far from the axis each eigenvalue must be to be told from it.
     conservative : whether symmetric K and C exclude Hopf points.
+    complete : whether `eigenvalues` has all of them.
     """
 
     eigenvalues: Array
@@ -47,6 +48,7 @@ class Spectrum:
     n_unstable: int
     noise: Array
     conservative: bool
+    complete: bool = True
 
     def pair_count(self) -> int:
         """Return how many pairs of eigenvalues have a positive sum (complex pairs, and pairs of real ones).
@@ -208,8 +210,8 @@ def _sparse_spectrum(stiffness: Any) -> Spectrum:
         count = _positive(jac - noise * sparse.identity(n, format="csc"))
         if count is not None:
             state = UNSTABLE if count else result.stability if result.stability == MARGINAL else STABLE
-            return Spectrum(result.eigenvalues, state, count, result.noise, True)
-    return result
+            return Spectrum(result.eigenvalues, state, count, result.noise, True, complete=False)
+    return replace(result, complete=False)
 
 
 def _positive(jac: Any) -> int | None:

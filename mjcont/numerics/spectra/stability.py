@@ -25,6 +25,8 @@ from mjcont.numerics.spectra.spectrum import (
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.step.notes import Note
 
+# an eigenvalue no farther from zero than this many times one that is held there cannot be told from it
+_AS_NEAR = 10.0
 # entries of the evaluations for derivatives that are held at a time
 _ENTRIES = 2**17
 # the spectrum; the number of negative eigenvalues of K; that of unstable ones, told by the points beside
@@ -40,14 +42,15 @@ def verdict_at(holds: tuple[int, int], s: Spectrum) -> tuple[str, int]:
     ev = s.eigenvalues
     zeros, pairs = holds
     held = np.zeros(len(ev), dtype=bool)
-    held[np.argsort(np.abs(ev))[:zeros]] = True
+    if zeros:  # as many as the kind says, or more at a point of higher multiplicity
+        held |= np.abs(ev) <= _AS_NEAR * np.sort(np.abs(ev))[min(zeros, len(ev)) - 1]
     beside = [i for i in np.argsort(np.abs(ev.real)) if ev[i].imag > 0.0 and not held[i]]
     for i in beside[:pairs]:
         held |= np.abs(ev - ev[i]) == 0.0
         held |= np.abs(ev - ev[i].conj()) == 0.0
     others = int(np.count_nonzero(ev.real[~held] > s.noise[~held]))
-    counted = s.n_unstable - int(np.count_nonzero(ev.real[held] > s.noise[held]))
-    return MARGINAL, min(s.n_unstable, max(others, counted))  # of a large problem not all eigenvalues are known
+    known = others + int(np.count_nonzero(ev.real[held] > s.noise[held]))
+    return MARGINAL, others if s.complete else others + max(s.n_unstable - known, 0)
 
 
 def spectrum_of(point: CurvePoint) -> Spectrum:
