@@ -12,16 +12,16 @@ from mjcont.errors import FunctionError, MjcontError, ParameterError, leaves_dom
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
     PARAMETER,
-    Stencil,
     jacobian_from_rows,
     jacobian_steps,
     kept_within,
 )
-from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Values
+from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
+from mjcont.results.model import Model
 from mjcont.results.quantities import Observable, Parameter, default_bounds, finite, finite_array, finite_pair
 
 
-class VectorField:
+class VectorField(Model):
     """The first-order system u' = f(u, p) with named parameters.
 
     Parameters
@@ -51,7 +51,8 @@ class VectorField:
     """
 
     second_order = False
-    mjcf = None
+    evaluations = 0
+    state_labels: list[tuple[str, str]] = []
 
     def __init__(
         self,
@@ -98,12 +99,6 @@ class VectorField:
         }
         self.keyframes: dict[str, Array] = {}
 
-    def parameter(self, name: str) -> Parameter:
-        """Return the parameter called `name`."""
-        if name not in self.parameters:
-            raise unknown_name("parameter", name, self.parameters)
-        return self.parameters[name]
-
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the defaults for the others."""
         for name, value in (given or {}).items():
@@ -137,21 +132,6 @@ class VectorField:
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x plus each row of `steps`, (m, n)."""
         return np.array([self.residual(x + s, values) for s in steps])
-
-    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return f at states (m, n), a parameter having a value of its own in each (m,), shape (m, n)."""
-        at = dict(values)
-        found = np.empty((len(states), self.n))
-        for i, value in enumerate(column.tolist()):
-            at[name] = value
-            found[i] = self.residual(states[i], at)
-        return found
-
-    def linearize_along(
-        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
-    ) -> None:
-        """Return None: functions are evaluated one state after the other."""
-        del states, values, name, column, bounds
 
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
@@ -201,21 +181,10 @@ class VectorField:
         """Return f at x plus each row of `steps`."""
         return self.residuals(x, values, steps)
 
-    def retract(self, x: Array, step: Array) -> Array:
-        """Return x + step."""
-        return x + step
-
-    def retract_each(self, states: Array, steps: Array) -> Array:
-        """Return states + steps, (m, n)."""
-        return states + steps
-
-    def difference(self, x1: Array, x0: Array) -> Array:
-        """Return x1 - x0."""
-        return x1 - x0
-
-    def difference_each(self, ends: Array, starts: Array) -> Array:
-        """Return ends - starts, (m, n)."""
-        return ends - starts
+    @property
+    def own_jacobian(self) -> bool:
+        """Whether the user gave one."""
+        return self.jacobian is not None
 
     # -- observables -----------------------------------------------------------------------------------------
 
@@ -223,21 +192,11 @@ class VectorField:
         """Add an observable computed by `function(u, p)`."""
         self.observables[name] = Observable(name, unit, lambda values, x: function(x, values))
 
-    def observable(self, name: str) -> Observable:
-        """Return the observable called `name`."""
-        if name not in self.observables:
-            raise unknown_name("observable", name, self.observables)
-        return self.observables[name]
-
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables for states (m, n), shape (m, number of names)."""
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
         per_row = [values] * len(states) if isinstance(values, Mapping) else values
         return np.array([[_measured(o, v, x) for o in chosen] for x, v in zip(states, per_row, strict=True)])
-
-    def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return all observables for states (m, n), a parameter having a value of its own in each (m,)."""
-        return self.measure(states, [{**values, name: v} for v in column.tolist()])
 
     def __str__(self) -> str:
         """List parameters and components."""

@@ -148,12 +148,13 @@ def _sensitivities(args: argparse.Namespace) -> int:
 
 
 def _view(args: argparse.Namespace) -> int:
+    from mjcont.drawing.poses import mechanism_of
     from mjcont.drawing.viewer import view
 
     point = _point_of_result(args) if _is_result(args.model) else _point_of_model(args)
     if point is not None:
         say(str(point))
-        view(point.problem, point.state, point.parameters)
+        view(mechanism_of(point), point.state, point.parameters)
         return OK
     from mjcont.mechanism.mechanism import Mechanism
 

@@ -12,18 +12,20 @@ import numpy as np
 from mjcont.curves.rows import CurveRows, curve_rows
 from mjcont.errors import StartError
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.kinds import KINDS, holds_eigenvalues
 from mjcont.numerics.spectra.spectrum import Spectrum
-from mjcont.numerics.spectra.stability import holds_eigenvalues, local_spectrum, verdict_at
-from mjcont.numerics.step.arclength import CurvePoint, first_point, turned_back
-from mjcont.numerics.walk.steps import End, Status
+from mjcont.numerics.spectra.stability import local_spectrum, verdict_at
+from mjcont.numerics.step.arclength import CurvePoint, first_point
+from mjcont.numerics.walk.steps import End, Item, Status
 from mjcont.numerics.walk.trace import Trace, Walker, trace
 from mjcont.results.branch import Branch
+from mjcont.results.model import Model, model_of, units
 from mjcont.results.points import Column, Point, SpecialPoint, show, special_from_row
 from mjcont.results.provenance import provenance
-from mjcont.results.quantities import units
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,32 +41,32 @@ Progress = Callable[[int, Found | None], None]
 _VECTOR_NAMES = ("v", "w")
 
 
-def make_point(problem: Any, x: Array, values: Values, kind: str = "") -> Point:
+def make_point(problem: Model, x: Array, values: Values, kind: str = "") -> Point:
     """Return the Point of an equilibrium, or of a special point of a kind, with observables, eigenvalues, stability."""
     s = local_spectrum(Local(problem, x, values, (), False))
-    word, count = verdict_at(kind, s) if holds_eigenvalues(kind) else (s.stability, s.n_unstable)
+    word, count = verdict_at(KINDS[kind].holds, s) if holds_eigenvalues(kind) else (s.stability, s.n_unstable)
     measured = problem.measure(x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
     return Point(dict(values), observables, x.copy(), s.eigenvalues, word, count, problem, units(problem))
 
 
 def _found(system: System, item: Located) -> Found:
-    problem: Any = system.problem
+    problem = model_of(system.problem)
     values = system.values(item.point.y)
     measured = problem.measure(item.point.x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
     return Found(item.kind, {n: values[n] for n in system.names}, observables)
 
 
-def reporter(system: System, progress: Progress | None) -> Callable[[CurvePoint | Located | End], None] | None:
+def reporter(system: System, progress: Progress | None) -> Callable[[Item], None] | None:
     """Return what a trace calls for each item, so that `progress` hears of points and special points."""
     if progress is None:
         return None
     count = 0
 
-    def report(item: CurvePoint | Located | End) -> None:
+    def report(item: Item) -> None:
         nonlocal count
-        if not isinstance(item, End):
+        if isinstance(item, CurvePoint | Located):
             count += isinstance(item, CurvePoint)
             progress(count, _found(system, item) if isinstance(item, Located) else None)
 
@@ -84,13 +86,11 @@ def run_directions(
         if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
             break
         with np.errstate(all="ignore"):  # a state that overflows fails its step; that is reported as such
-            first: CurvePoint | str
-            if walker.long is not None and traces and traces[0].points:
-                first = turned_back(walker.system, traces[0].points)
-            else:
+            first: CurvePoint | Refused | None = walker.stepper.other_way(traces[0].points) if traces else None
+            if first is None:
                 first = first_point(walker.system, x, y, direction, walker.settings, lead)
-            if isinstance(first, str):
-                traces.append(Trace([], [], End(Status.NO_START, f"the curve could not be entered: {first}")))
+            if isinstance(first, Refused):
+                traces.append(Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
             known = [e for t in traces for e in t.special]
             traces.append(trace(walker, first, report, known))
@@ -104,7 +104,6 @@ def collect(
     directions: Sequence[float],
     origin: str,
     settings: Settings,
-    neutral: Sequence[Located] = (),
     notes: Sequence[str] = (),
 ) -> Branch:
     """Join the directions of a curve into a branch, special points in their places.
@@ -120,18 +119,13 @@ def collect(
             start_index = max(len(rows) - 1, 0)
         else:
             rows += ordered[1:] if rows else ordered
-    problem = system.problem
     if not rows:
-        raise StartError(f"{problem.name}: " + "; ".join(t.end.message for t in traces))  # type: ignore[attr-defined]
+        name = model_of(system.problem).name
+        raise StartError(f"{name}: " + "; ".join(t.end.message for t in traces))
     start = rows[start_index][0]
     table = completed(kind, system, rows, settings, traces)
     start_index = next(i for i, p in enumerate(table.points) if p is start)
-    return build_branch(kind, table, ends_of(traces), origin, start_index, settings, neutral, notes)
-
-
-def ends_of(traces: Sequence[Trace]) -> list[tuple[str, str]]:
-    """Return how the directions of a curve ended: status and sentence of each."""
-    return [(t.end.status.value, t.end.message) for t in traces]
+    return build_branch(kind, table, traces, origin, start_index, settings, notes)
 
 
 def completed(
@@ -158,28 +152,27 @@ def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
     rows: list[tuple[CurvePoint, Located | None]] = [(p, None) for p in run.points]
     rows += [(e.point, e) for e in run.special]
     rows = sorted(rows, key=lambda r: r[0].s)
-    closed = run.end.status is Status.CLOSED and "turns" not in run.end.message
+    closed = run.end.status is Status.CLOSED and not run.end.full_turns
     return [*rows, rows[0]] if closed else rows
 
 
 def build_branch(
     kind: str,
     rows: CurveRows,
-    ends: Sequence[tuple[str, str]],
+    traces: Sequence[Trace],
     origin: str,
     start_index: int,
     settings: Settings,
-    neutral: Sequence[Located] = (),
     notes: Sequence[str] = (),
 ) -> Branch:
     """Return the branch of ordered rows: columns, spectra, labelled special points, provenance."""
     system, states = rows.system, rows.states
-    problem: Any = system.problem
+    problem = model_of(system.problem)
     words, counts, spectra = rows.stability()
     for i, s in enumerate(spectra):
         at = _kind_at(kind, rows.located[i])
         if at and s is not None:
-            words[i], counts[i] = verdict_at(at, s)
+            words[i], counts[i] = verdict_at(KINDS[at].holds, s)
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
     base = rows.values(0)
     lead = system.names[0]
@@ -207,14 +200,16 @@ def build_branch(
         special_points=(),
         free={p.name: (p.low, p.high) for p in system.free},
         fixed={k: v for k, v in base.items() if k not in system.names},
-        ends=ends,
+        ends=[(t.end.status.value, t.end.message) for t in traces],
         start="",
         settings={k: v for k, v in asdict(settings).items() if v != math.inf},
         provenance=provenance(problem),
         problem=problem,
         start_index=start_index,
         neutral_saddles=[
-            {n: v for n, v in system.values(e.point.y).items() if n in system.names} for e in neutral
+            {n: v for n, v in system.values(e.point.y).items() if n in system.names}
+            for t in traces
+            for e in t.neutral
         ],
         notes=(*notes, *_springs(rows), *_left_out(rows), *_unexplained(kind, rows, stability, n_unstable)),
         fixed_units={k: u for k, u in unit_of.items() if k in base and k not in system.names},
@@ -232,7 +227,7 @@ def _kind_at(curve: str, special: Located | None) -> str:
 
 def _springs(rows: CurveRows) -> list[str]:
     """Return the notes on the stiffness of a mechanism's constraints, over the range of the free parameters."""
-    if not getattr(rows.system.problem, "constrained", False):
+    if not model_of(rows.system.problem).constrained:
         return []
     from mjcont.models.springnotes import notes_on  # MuJoCo is imported only where there is a Mechanism
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from mjcont.curves.walkers import equilibrium_walker, monitor_of, point_stop
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.numerics.equations.newton import LARGEST_ERROR, Corrected, Start, find_start, solve
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import make_settings
 from mjcont.numerics.equations.system import Free, System
 from mjcont.numerics.points.events import Located, ScalarZero
@@ -22,8 +23,11 @@ from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
+from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint, show
-from mjcont.results.quantities import check_bounds, finite
+from mjcont.results.quantities import finite
+
+M = TypeVar("M", bound=Model)
 
 
 def check_limits(name: str, ends: Any) -> None:
@@ -37,7 +41,7 @@ def check_limits(name: str, ends: Any) -> None:
 
 
 def start_from(
-    problem: Any, start: Mapping[str, float] | Point | None, keyframe: str | None, state: Any
+    problem: Model, start: Mapping[str, float] | Point | None, keyframe: str | None, state: Any
 ) -> tuple[Array, dict[str, float]]:
     """Return the state and parameter values that `start`, `keyframe` and `state` describe."""
     if isinstance(start, Point):
@@ -50,7 +54,7 @@ def start_from(
 
 @np.errstate(all="ignore")
 def find_equilibrium(
-    problem: Any, start: Mapping[str, float] | Point | None = None, *, keyframe: str | None = None, state: Any = None
+    problem: Model, start: Mapping[str, float] | Point | None = None, *, keyframe: str | None = None, state: Any = None
 ) -> Point:
     """Return the equilibrium that a start belongs to: by Newton if it is near, else the one it flows to.
 
@@ -62,12 +66,12 @@ def find_equilibrium(
     x, values = start_from(problem, start, keyframe, state)
     problem, _ = hold_rigid_modes(problem, x, values)
     found = settled(problem, start if state is keyframe is None else None, x, values)
-    if found.failure:
+    if found.failure is not None:
         raise StartError(f"no equilibrium found from {_start_name(start, keyframe, state)}: {found.failure}")
     return make_point(problem, found.x, values)
 
 
-def settled(problem: Any, start: Any, x: Array, values: Values) -> Start:
+def settled(problem: Model, start: Any, x: Array, values: Values) -> Start:
     """Return the equilibrium that a state belongs to. A located special point is one as it stands.
 
     At its parameters Newton's method would meet a singular matrix and go astray by rounding.
@@ -90,7 +94,7 @@ def _start_name(start: Any, keyframe: str | None, state: Any) -> str:
 
 @np.errstate(all="ignore")
 def continue_equilibria(
-    problem: Any,
+    problem: Model,
     parameter: str,
     bounds: tuple[float, float] | None = None,
     start: Mapping[str, float] | Point | None = None,
@@ -144,14 +148,13 @@ def continue_equilibria(
     walker = prepared.walker
     traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
     branch = collect(
-        "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.neutral,
-        prepared.notes,
+        "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.notes
     )
     return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
 
 
 def iterate_equilibria(
-    problem: Any,
+    problem: Model,
     parameter: str,
     bounds: tuple[float, float] | None = None,
     start: Mapping[str, float] | Point | None = None,
@@ -173,16 +176,16 @@ def iterate_equilibria(
     walker = prepared.walker
     system = walker.system
     first = first_point(system, prepared.x, system.start_y(), sign, walker.settings)
-    if isinstance(first, str):
+    if isinstance(first, Refused):
         raise StartError(f"the curve could not be entered: {first}")
-    yield make_point(system.problem, first.x, system.values(first.y))
+    yield make_point(model_of(system.problem), first.x, system.values(first.y))
     for item in guarded(walker.walk(first)):
         if isinstance(item, End) and item.status is Status.FAILED:
             raise MjcontError(item.message)
         if isinstance(item, CurvePoint):
-            yield make_point(system.problem, item.x, system.values(item.y))
+            yield make_point(model_of(system.problem), item.x, system.values(item.y))
         elif isinstance(item, Located):
-            row = make_point(system.problem, item.point.x, system.values(item.point.y), item.kind)
+            row = make_point(model_of(system.problem), item.point.x, system.values(item.point.y), item.kind)
             yield special_point(row, item, "", 0, {p.name: (p.low, p.high) for p in system.free}, "equilibria")
 
 
@@ -193,12 +196,11 @@ class _Prepared:
     walker: Walker
     x: Array
     origin: str
-    neutral: list[Located]
     notes: tuple[str, ...]
 
 
 def _prepare(
-    problem: Any,
+    problem: Model,
     parameter: str,
     bounds: tuple[float, float] | None,
     start: Mapping[str, float] | Point | None,
@@ -231,25 +233,24 @@ def _prepare(
         problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
     found = settled(problem, start if state is keyframe is None else None, x, values)
     origin = _start_name(start, keyframe, state)
-    if found.failure:
+    if found.failure is not None:
         raise StartError(f"no equilibrium found from {origin}: {found.failure}")
     system = System(problem, values, [Free(parameter, low, high, problem.parameter(parameter).unit)])
-    neutral: list[Located] = []
     walker = equilibrium_walker(
-        system, settings, neutral, zeros or {}, point_stop(problem, system, stop, limits or {})
+        system, settings, zeros or {}, point_stop(problem, system, stop, limits or {})
     )
     way = {"newton": ", by Newton", "located": ""}.get(found.method, ", by damped motion to rest")
-    return _Prepared(walker, found.x, f"from {origin}{way}", neutral, notes)
+    return _Prepared(walker, found.x, f"from {origin}{way}", notes)
 
 
 def hold_rigid_modes(
-    problem: Any, x: Array, values: Values, ranges: Mapping[str, tuple[float, float]] | None = None
-) -> tuple[Any, tuple[str, ...]]:
+    problem: M, x: Array, values: Values, ranges: Mapping[str, tuple[float, float]] | None = None
+) -> tuple[M, tuple[str, ...]]:
     """Return the problem with its rigid-body zero modes held, and a note that names them.
 
     A motion that something opposes elsewhere in the `ranges` of parameters is not held.
     """
-    modes = found = problem.rigid_modes(x, values) if hasattr(problem, "rigid_modes") else ()
+    modes = found = problem.rigid_modes(x, values)
     for name, ends in (ranges or {}).items():
         for end in ends:
             beside = {**values, name: 0.7 * end + 0.3 * values[name]}
@@ -260,16 +261,15 @@ def hold_rigid_modes(
     return problem.holding(modes) if modes or lost else problem, tuple(notes)
 
 
-def refuse_pushing(problem: Any, parameter: str, x: Array, values: Values) -> None:
+def refuse_pushing(problem: Model, parameter: str, x: Array, values: Values) -> None:
     """Raise a StartError if a parameter pushes along a held rigid-body mode: there is no equilibrium then."""
-    held = getattr(problem, "held", ())
-    if not held:
+    if not problem.held:
         return
     local = problem.linearize(x, values, (parameter,))
     push = local.par[:, 0]
     noise = 1e-12 * np.abs(local.jac).max()
     directions = problem.rigid_directions(x)
-    for name in held:
+    for name in problem.held:
         z = directions.get(name)
         if z is not None and abs(z @ push) > (1e-9 * np.abs(push).max() + noise) * np.abs(z).max():
             raise StartError(
@@ -294,12 +294,11 @@ def check_direction(direction: int | None) -> tuple[float, ...]:
 @np.errstate(all="ignore")
 def points_at(branch: Branch, name: str, value: float) -> list[Point]:
     """Return the points of a branch of equilibria at which a column has a value, corrected to it."""
-    if branch.problem is None:
-        raise MjcontError("the branch was loaded without its problem: mc.load(path, problem=...)")
+    model_of(branch.problem, "the branch")
     if branch.kind != "equilibria":
         raise MjcontError("at() works on branches of equilibria; on a locus use its special points or rows")
     column = branch[name] - value
-    held, _ = hold_rigid_modes(branch.problem, branch.states[0], branch.parameters_at(0))
+    held, _ = hold_rigid_modes(branch.model, branch.states[0], branch.parameters_at(0))
     branch = replace(branch, problem=held)
     found: list[Point] = []
     for i in range(len(branch) - 1):
@@ -314,7 +313,7 @@ def points_at(branch: Branch, name: str, value: float) -> list[Point]:
 
 
 def _point_between(branch: Branch, i: int, fraction: float, name: str, value: float) -> Point | None:
-    problem = branch.problem
+    problem = branch.model
     step = problem.difference(branch.states[i + 1], branch.states[i])
     x = problem.retract(branch.states[i], fraction * step)
     free = [Free(n, *b) for n, b in branch.free.items()]
@@ -327,4 +326,4 @@ def _point_between(branch: Branch, i: int, fraction: float, name: str, value: fl
         at = Corrected(x, equilibria.start_y(), equilibria.local(x, equilibria.start_y()), None, 0, 0.0, 0.0, 0.0)
         system, y = square_system(equilibria, [ScalarZero(monitor_of(problem, name, value))], at)
     c = solve(system, x, y)
-    return None if c.failure else make_point(problem, c.x, system.values(c.y))
+    return None if c.failure is not None else make_point(problem, c.x, system.values(c.y))

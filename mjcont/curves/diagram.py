@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.curves.collect import Progress, build_branch, completed, ends_of, ordered_rows, reporter
+from mjcont.curves.collect import Progress, build_branch, completed, ordered_rows, reporter
 from mjcont.curves.continuation import continue_equilibria, find_equilibrium
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.numerics.equations.newton import correct, solve
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Free, System
 from mjcont.numerics.points.events import Located
@@ -20,8 +21,8 @@ from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace, trace
 from mjcont.results.branch import Branch, Diagram
+from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint
-from mjcont.results.quantities import check_bounds
 
 _OFFSET = 1e-2
 _SAME = 1e-5
@@ -51,8 +52,6 @@ def switch_branches(
     """
     if point.kind != "BP" or point.curve != "equilibria":
         raise MjcontError(f"{point.label or 'this point'} is no branch point of equilibria: only those have branches")
-    if point.problem is None:
-        raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
     settings = make_settings(options)
     system = _system_at(point, bounds)
     found = [_through(point, system, t, settings, progress) for t in point.vectors.get("tangents", ())]
@@ -61,22 +60,22 @@ def switch_branches(
 
 def _system_at(point: SpecialPoint, bounds: tuple[float, float] | None) -> System:
     ((name, own),) = point.free.items()
-    low, high = check_bounds(point.problem, name, bounds or own)
+    low, high = check_bounds(point.model, name, bounds or own)
     if not low <= point.parameters[name] <= high:
         value = point.parameters[name]
         raise BoundsError(f"{point.label} has {name} = {value:g}, outside the bounds {low:g} .. {high:g}")
-    problem: Any = point.problem
+    problem = point.model
     return System(problem, problem.values(point.parameters), [Free(name, low, high, problem.parameter(name).unit)])
 
 
-def _leave(system: System, x: Array, y: Array, tangent: Array, settings: Settings) -> CurvePoint | str:
+def _leave(system: System, x: Array, y: Array, tangent: Array, settings: Settings) -> CurvePoint | Refused:
     """Return a point a small step along a tangent from a branch point."""
     x1, y1 = system.move(x, y, _OFFSET * tangent)
     c = correct(system, x1, y1, tangent, None, settings)
-    if c.failure:
+    if c.failure is not None:
         return c.failure
     if np.linalg.norm(system.difference(c.x, c.y, x1, y1)) > 0.5 * _OFFSET:
-        return "the corrector wandered to another branch"
+        return Refused(Why.WANDERED, "the corrector wandered to another branch")
     return point_from(c, tangent, _OFFSET)
 
 
@@ -85,16 +84,15 @@ def _through(
 ) -> Branch | None:
     """Return the branch through a branch point with a given tangent, or None if it cannot be entered."""
     x, y = point.state, system.start_y()
-    neutral: list[Located] = []
-    walker = equilibrium_walker(system, settings, neutral, {})
+    walker = equilibrium_walker(system, settings, {})
     halves: list[Trace] = []
     for sign in (-1.0, 1.0):
         if halves and halves[0].end.status in (Status.CLOSED, Status.INTERRUPTED):
-            halves.append(Trace([], [], halves[0].end))
+            halves.append(Trace([], end=halves[0].end))
             break
         first = _leave(system, x, y, sign * tangent, settings)
-        if isinstance(first, str):
-            halves.append(Trace([], [], End(Status.NO_START, f"the branch could not be entered: {first}")))
+        if isinstance(first, Refused):
+            halves.append(Trace([], end=End(Status.NO_START, f"the branch could not be entered: {first}")))
             continue
         halves.append(trace(walker, first, reporter(system, progress), [e for h in halves for e in h.special]))
     if not any(h.points for h in halves):
@@ -110,7 +108,7 @@ def _through(
     notes = ["its two halves are mirror images"] if _mirrored(system, minus, plus) else []
     table = completed("equilibria", system, rows, settings, halves)
     index = next(i for i, e in enumerate(table.located) if e is located)
-    return build_branch("equilibria", table, ends_of(halves), f"through {point.label}", index, settings, neutral, notes)
+    return build_branch("equilibria", table, halves, f"through {point.label}", index, settings, notes)
 
 
 def _away(system: System, a: CurvePoint, b: CurvePoint) -> bool:
@@ -135,7 +133,7 @@ def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool
 
 @np.errstate(all="ignore")
 def bifurcation_diagram(
-    problem: Any,
+    problem: Model,
     parameter: str,
     bounds: tuple[float, float] | None = None,
     starts: Sequence[Mapping[str, float] | Point] | Mapping[str, float] | Point | None = None,
@@ -197,7 +195,7 @@ def _new_branches(
     x, y = point.state, system.start_y()
     for tangent in point.vectors.get("tangents", ()):
         sides = [_leave(system, x, y, sign * tangent, settings) for sign in (1.0, -1.0)]
-        probes = [_as_point(system, s) for s in sides if not isinstance(s, str)]
+        probes = [_as_point(system, s) for s in sides if not isinstance(s, Refused)]
         if probes and all(any(covers(b, p) for b in branches) for p in probes):
             continue
         branch = _through(point, system, tangent, settings, progress)
@@ -206,11 +204,11 @@ def _new_branches(
 
 
 def _as_point(system: System, p: CurvePoint) -> Point:
-    problem: Any = system.problem
-    return Point(system.values(p.y), {}, p.x, np.zeros(0, dtype=complex), "marginal", 0, problem)
+    unread = np.zeros(0, dtype=complex)
+    return Point(system.values(p.y), {}, p.x, unread, "marginal", 0, model_of(system.problem))
 
 
-def _same(problem: Any, a: Point, b: Point, bounds: tuple[float, float]) -> bool:
+def _same(problem: Model, a: Point, b: Point, bounds: tuple[float, float]) -> bool:
     width = bounds[1] - bounds[0]
     moved = np.max(np.abs(problem.difference(a.state, b.state)) / problem.state_scale)
     spread = max(abs(a.parameters[n] - b.parameters[n]) for n in a.parameters)
@@ -219,7 +217,7 @@ def _same(problem: Any, a: Point, b: Point, bounds: tuple[float, float]) -> bool
 
 def covers(branch: Branch, point: Point) -> bool:
     """Whether an equilibrium lies on a branch of equilibria: near one of its chords, and equal when solved for."""
-    problem: Any = branch.problem
+    problem = branch.model
     ((name, (low, high)),) = branch.free.items()
     target = (point.parameters[name] - branch[name]) / (high - low)
     scale = problem.state_scale
@@ -233,7 +231,7 @@ def covers(branch: Branch, point: Point) -> bool:
         chord = problem.difference(branch.states[i + 1], branch.states[i])
         x = problem.retract(branch.states[i], along[i] * chord)
         c = solve(System(problem, point.parameters, ()), x, np.zeros(0), reach=0.1)
-        near = not c.failure and np.max(np.abs(problem.difference(c.x, point.state)) / scale) < _SAME
+        near = c.failure is None and np.max(np.abs(problem.difference(c.x, point.state)) / scale) < _SAME
         if near or aside[i] < 1e-7:
             return True
     return False

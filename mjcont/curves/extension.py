@@ -9,22 +9,25 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.curves.collect import Progress, build_branch, completed, ends_of, ordered_rows, reporter
+from mjcont.curves.collect import Progress, build_branch, completed, ordered_rows, reporter
 from mjcont.curves.loci import default_ends, locus_detectors
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.kinds import conditions_of
 from mjcont.numerics.points.on_equilibria import critical_square
-from mjcont.numerics.points.on_loci import conditions_of, unfolding_stop
+from mjcont.numerics.points.on_loci import unfolding_stop
 from mjcont.numerics.spectra.spectrum import spectrum
 from mjcont.numerics.step.arclength import CurvePoint, first_point
+from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Trace, Walker, trace
 from mjcont.results.branch import Branch
+from mjcont.results.model import check_bounds, model_of
 from mjcont.results.points import SpecialPoint
-from mjcont.results.quantities import check_bounds
 
 _ENDS = ("first", "last")
 _SAME = 1e-4
@@ -52,8 +55,7 @@ def extend(
     MjcontError
         If the branch is closed or was loaded without its problem.
     """
-    if branch.problem is None:
-        raise MjcontError("the branch was loaded without its problem: mc.load(path, problem=...)")
+    model_of(branch.problem, "the branch")
     if branch.status == "closed":
         raise MjcontError("the branch is closed: it has no ends to extend")
     for end in ends:
@@ -88,7 +90,7 @@ def _free(branch: Branch, bounds: Any) -> list[Free]:
     for name in given:
         if name not in branch.free:
             raise ParameterError(f"'{name}' is not free on this branch. Free: {', '.join(branch.free)}.")
-    ranges = {n: check_bounds(branch.problem, n, given.get(n, own)) for n, own in branch.free.items()}
+    ranges = {n: check_bounds(branch.model, n, given.get(n, own)) for n, own in branch.free.items()}
     for name, (low, high) in ranges.items():
         column, slack = branch[name], 1e-9 * (high - low)
         if column.min() < low - slack or column.max() > high + slack:
@@ -114,20 +116,19 @@ def _segment(
         return None
     index, before = (keep, keep + 1) if end == "first" else (len(branch) - 1 - keep, len(branch) - 2 - keep)
     system = _system(branch, index, free)
-    neutral: list[Any] = []
     zeros = branch.settings.get("zeros", {})
     if branch.kind == "equilibria":
-        walker = equilibrium_walker(system, settings, neutral, zeros)
+        walker = equilibrium_walker(system, settings, zeros)
     else:
         kind = branch.kind.removesuffix(" locus")
         stop = unfolding_stop(system) if kind == "BP" else None
         detectors = locus_detectors(kind, system, settings, True, zeros)
-        walker = Walker(system, settings, detectors, stop, frozenset(default_ends(kind)))
+        walker = Walker(OneByOne(system, settings, detectors), stop, frozenset(default_ends(kind)))
     start = _outward(system, branch, index, before, settings)
-    if isinstance(start, str):
+    if isinstance(start, Refused):
         return None
     run = trace(walker, start, reporter(walker.system, progress))
-    return _as_branch(branch, system, run, end, settings, neutral, _length(system, branch, index, end))
+    return _as_branch(branch, system, run, end, settings, _length(system, branch, index, end))
 
 
 def _length(system: System, branch: Branch, index: int, end: str) -> float:
@@ -139,7 +140,7 @@ def _length(system: System, branch: Branch, index: int, end: str) -> float:
 
 def _chord(system: System, branch: Branch, i: int, j: int) -> Array:
     """Return the scaled step from row i to row j in state and free parameters."""
-    problem: Any = branch.problem
+    problem = branch.model
     step = problem.difference(branch.states[j], branch.states[i]) / problem.state_scale
     columns = [(p, branch[p.name]) for p in system.free]
     return np.concatenate([step, [p.coordinate(float(c[j])) - p.coordinate(float(c[i])) for p, c in columns]])
@@ -150,7 +151,7 @@ def _end(branch: Branch, end: str) -> tuple[str, str]:
 
 
 def _system(branch: Branch, index: int, free: Sequence[Free]) -> System:
-    problem: Any = branch.problem
+    problem = branch.model
     values = problem.values(branch.parameters_at(index))
     plain = System(problem, values, free)
     if branch.kind == "equilibria":
@@ -161,17 +162,17 @@ def _system(branch: Branch, index: int, free: Sequence[Free]) -> System:
     return System(problem, values, free, conditions, accurate=True)
 
 
-def _outward(system: System, branch: Branch, index: int, before: int, settings: Settings) -> CurvePoint | str:
+def _outward(system: System, branch: Branch, index: int, before: int, settings: Settings) -> CurvePoint | Refused:
     x, y = branch.states[index].copy(), system.start_y()
     reference = np.concatenate([_chord(system, branch, before, index), np.zeros(system.k - len(system.free))])
     point = first_point(system, x, y, 1.0, settings)
-    if not isinstance(point, str) and point.tangent @ reference < 0:
+    if not isinstance(point, Refused) and point.tangent @ reference < 0:
         point = first_point(system, x, y, -1.0, settings)
     return point
 
 
 def _as_branch(
-    branch: Branch, system: System, run: Trace, end: str, settings: Settings, neutral: Sequence[Any], known: float
+    branch: Branch, system: System, run: Trace, end: str, settings: Settings, known: float
 ) -> Branch | None:
     """Return the rows of a run beyond the arclength that is known."""
 
@@ -185,7 +186,7 @@ def _as_branch(
     if not new:
         return None
     rows = rows.chosen(new[::-1] if end == "first" else new)
-    return build_branch(branch.kind, rows, ends_of([run]), branch.start, 0, settings, neutral)
+    return build_branch(branch.kind, rows, [run], branch.start, 0, settings)
 
 
 def _has(branch: Branch, system: System, e: Located) -> bool:

@@ -15,16 +15,16 @@ from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.points.events import Detector
+from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of
 from mjcont.numerics.points.on_equilibria import zero_detector
-from mjcont.numerics.points.on_loci import conditions_of, fold_locus_detectors, hopf_locus_detectors, unfolding_stop
+from mjcont.numerics.points.on_loci import fold_locus_detectors, hopf_locus_detectors, unfolding_stop
+from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
-from mjcont.results.points import KIND_NAMES, SpecialPoint, show
-from mjcont.results.quantities import check_bounds
+from mjcont.results.model import check_bounds, model_of
+from mjcont.results.points import SpecialPoint, show
 
-CONTINUABLE = ("LP", "HB", "BP", "CP", "BT", "ZH")
-_NAMES = {"LP": "fold", "HB": "Hopf", "BP": "branch-point", "CP": "cusp", "BT": "Bogdanov-Takens", "ZH": "zero-Hopf"}
-CODIMENSION = {"LP": 1, "HB": 1, "BP": 1, "CP": 2, "BT": 2, "ZH": 2}
+CODIMENSION = {code: KINDS[code].codimension for code in CONTINUABLE}
 
 
 @np.errstate(all="ignore")
@@ -75,10 +75,10 @@ def continue_special(
     stop: Callable[[Any], str | None] | None = unfolding_stop(system) if kind == "BP" else None
     detectors = locus_detectors(kind, system, settings, lyapunov, zeros or {})
     for name in end_at or ():
-        if name not in KIND_NAMES:
-            raise unknown_name("kind of special point", name, KIND_NAMES)
+        if name not in KINDS:
+            raise unknown_name("kind of special point", name, KINDS)
     ends = frozenset(end_at if end_at is not None else default_ends(kind))
-    walker = Walker(system, settings, detectors, stop, ends)
+    walker = Walker(OneByOne(system, settings, detectors), stop, ends)
     directions = check_direction(direction)
     lead = len(free) - 1
     traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
@@ -100,8 +100,7 @@ def _continued_as(point: SpecialPoint) -> str:
         raise MjcontError(
             f"a point of kind {point.kind or 'regular'} has no curve to follow. Valid kinds: {', '.join(CONTINUABLE)}."
         )
-    if point.problem is None:
-        raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
+    model_of(point.problem)
     return kind
 
 
@@ -110,7 +109,7 @@ def _freed(point: SpecialPoint, kind: str, free: Sequence[Free]) -> list[Free]:
     found = [p for p in free if kind == point.kind or p.name != list(point.free)[-1]]
     if len(found) != CODIMENSION[kind] + 1:
         raise MjcontError(
-            f"{point.label} lies on a curve in {len(found) - 1} parameters: a {_NAMES[kind]} curve has "
+            f"{point.label} lies on a curve in {len(found) - 1} parameters: a {KINDS[kind].continues_as} curve has "
             f"{CODIMENSION[kind] + 1} free parameters, this would have {len(found)}"
         )
     return found
@@ -133,7 +132,7 @@ def free_parameters(
     point: SpecialPoint, parameter: str, bounds: tuple[float, float] | Mapping[str, tuple[float, float]] | None
 ) -> list[Free]:
     """Return the parameters of the point's curve and the new one, each with its bounds."""
-    problem: Any = point.problem
+    problem = point.model
     given = dict(bounds) if isinstance(bounds, Mapping) else ({} if bounds is None else {parameter: bounds})
     if parameter in point.free:
         raise ParameterError(f"{parameter} is already free on the curve of {point.label}: name another parameter")
@@ -156,13 +155,13 @@ def free_parameters(
 
 def locus_system(point: SpecialPoint, kind: str, free: Sequence[Free]) -> System:
     """Return the system whose solutions are the curve through a special point."""
-    problem: Any = point.problem
+    problem = point.model
     values = problem.values(point.parameters)
-    problem, _ = hold_rigid_modes(problem, point.state, values)
-    plain = System(problem, values, free)
-    local = Local(problem, point.state, values, plain.names, True, plain.ranges)
+    held, _ = hold_rigid_modes(problem, point.state, values)
+    plain = System(held, values, free)
+    local = Local(held, point.state, values, plain.names, True, plain.ranges)
     square = float(point.coefficients["omega"]) ** 2 if "omega" in point.coefficients else None
-    return System(problem, values, free, conditions_of(kind, local, plain, square), accurate=True)
+    return System(held, values, free, conditions_of(kind, local, plain, square), accurate=True)
 
 
 def locus_detectors(
@@ -175,7 +174,8 @@ def locus_detectors(
     elif kind == "HB":
         found += hopf_locus_detectors(system, system.conditions[0], settings, lyapunov=lyapunov)  # type: ignore[arg-type]
     for name, value in zeros.items():
-        found.append(zero_detector(system, monitor_of(system.problem, name, value), f"{name} = {value:g}", settings))
+        monitor = monitor_of(model_of(system.problem), name, value)
+        found.append(zero_detector(system, monitor, f"{name} = {value:g}", settings))
     return found
 
 

@@ -5,20 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.kinds import KINDS
 from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import spectra_at, verdicts
-from mjcont.numerics.step.arclength import CurvePoint
+from mjcont.numerics.step.arclength import OUTSIDE, CurvePoint
 from mjcont.numerics.walk.between import rows_between
-
-# special points at which eigenvalues pass the axis
-CROSSINGS = ("LP", "HB", "BP")
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +99,7 @@ class CurveRows:
     def _passes(self, index: int) -> bool:
         """Whether eigenvalues pass the axis in a row."""
         special = self.located[index]
-        return special is not None and special.kind in CROSSINGS
+        return special is not None and KINDS[special.kind].crosses
 
 
 def curve_rows(system: System, rows: Sequence[tuple[CurvePoint, Located | None]], chord: float) -> CurveRows:
@@ -115,7 +112,7 @@ def curve_rows(system: System, rows: Sequence[tuple[CurvePoint, Located | None]]
     between, left_out = rows_between(system, curve, chord) if _cheap(system, chord) else (None, 0)
     if between is None:
         return given
-    outside = np.array(["outside" in p.extra for p in curve])
+    outside = np.array([OUTSIDE.known(p) for p in curve])
     between = between.chosen(~(outside[:-1] | outside[1:])[between.after])  # a curve ends at the first point outside
     at = np.array([p.s for p in curve])
     added = CurveRows(
@@ -134,10 +131,9 @@ def curve_rows(system: System, rows: Sequence[tuple[CurvePoint, Located | None]]
 
 def _cheap(system: System, chord: float) -> bool:
     """Whether many states that differ in the free parameter are evaluated side by side."""
-    problem: Any = system.problem
-    if math.isinf(chord) or len(system.free) != 1 or system.conditions or not hasattr(problem, "side_by_side"):
+    if math.isinf(chord) or len(system.free) != 1 or system.conditions:
         return False
-    return bool(problem.side_by_side(system.names[0]))
+    return system.problem.side_by_side(system.names[0])
 
 
 def _places(rows: Sequence[tuple[CurvePoint, Located | None]], regular: Sequence[int]) -> Array:

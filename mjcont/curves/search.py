@@ -25,6 +25,7 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.search.coordinates import Coordinates, layout, with_turns
 from mjcont.numerics.search.deflation import Deflation, newton
 from mjcont.numerics.search.multistart import Many, Runs, levenberg_marquardt, spectral_step
+from mjcont.results.model import Model
 from mjcont.results.points import Point
 from mjcont.results.search import Account, Equilibria, gather, same_spectrum
 
@@ -43,7 +44,7 @@ _ROUNDS_FOR_NONE = 3
 
 
 def find_equilibria(
-    problem: Any,
+    problem: Model,
     params: Mapping[str, float] | Point | None = None,
     *,
     region: Region | None = None,
@@ -103,12 +104,12 @@ def find_equilibria(
     return gather(problem.name, search.points, search.hits, energies, ended, search.account(), search.notes, shown)
 
 
-def _prepare(problem: Any, values: dict[str, float], region: Region | None) -> _Search:
+def _prepare(problem: Model, values: dict[str, float], region: Region | None) -> _Search:
     """Return a search that has not begun."""
     ranges = _ranges(problem, region)
     home = problem.start_state()
     held, notes = hold_rigid_modes(problem, home, values)
-    single = bool(notes) or getattr(problem, "jacobian", None) is not None
+    single = bool(notes) or problem.own_jacobian
     labels = problem.state_labels
     coordinates = Coordinates(held, layout(labels, problem.state_scale, home, ranges))
     search = _Search(held, values, coordinates, _many(held, values, coordinates, single), ranges, region, notes)
@@ -116,7 +117,7 @@ def _prepare(problem: Any, values: dict[str, float], region: Region | None) -> _
     return search
 
 
-def _parameter_values(problem: Any, params: Mapping[str, float] | Point | None) -> dict[str, float]:
+def _parameter_values(problem: Model, params: Mapping[str, float] | Point | None) -> dict[str, float]:
     if params is not None and not isinstance(params, Mapping | Point):
         raise ParameterError(f"params must be a dict of parameter values or a point, got {type(params).__name__}")
     if isinstance(params, Point):
@@ -125,7 +126,7 @@ def _parameter_values(problem: Any, params: Mapping[str, float] | Point | None) 
     return values
 
 
-def _ranges(problem: Any, region: Region | None) -> dict[str, tuple[float, float]]:
+def _ranges(problem: Model, region: Region | None) -> dict[str, tuple[float, float]]:
     """Return the checked ranges of a region; none for a callable."""
     if region is None or callable(region):
         return {}
@@ -144,7 +145,7 @@ def _ranges(problem: Any, region: Region | None) -> dict[str, tuple[float, float
     return ranges
 
 
-def _many(problem: Any, values: Mapping[str, float], coordinates: Coordinates, single: bool) -> Many:
+def _many(problem: Model, values: Mapping[str, float], coordinates: Coordinates, single: bool) -> Many:
     return Many(problem, values, coordinates.flat, single, *coordinates.limits(_BEYOND))
 
 
@@ -179,7 +180,7 @@ class _Search:
     `roots` are all equilibria, wrapped; `inside` holds the place of each among `points`, -1 outside the region.
     """
 
-    problem: Any
+    problem: Model
     values: dict[str, float]
     coordinates: Coordinates
     many: Many
@@ -238,7 +239,7 @@ class _Search:
     def _flow(self, x: Array, limits: _Limits, progress: Progress | None) -> None:
         """Search from a pose of the model's own: the equilibrium that it belongs or flows to."""
         start = find_start(self.problem, x, self.values)
-        if not start.failure and not limits.reached(self):
+        if start.failure is None and not limits.reached(self):
             where = self.coordinates.wrap(start.x[None])
             sign = spectral_step(*self.many.linearize(where))[2][0]
             self._add(where[0], float(sign), limits, progress)
@@ -327,7 +328,7 @@ class _Search:
         if len(self.points) >= limits.solutions:
             return -1
         refined = solve(System(self.problem, self.values, ()), x, np.zeros(0), reach=0.01)
-        if refined.failure:
+        if refined.failure is not None:
             return -1
         # the index of f as a field on the states is the sign of det(-J)
         place = self._keep(self.coordinates.wrap(refined.x[None])[0], progress)

@@ -9,12 +9,13 @@ import numpy as np
 from mjcont.curves.loci import continue_special
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
+from mjcont.results.model import Model
 from mjcont.results.points import SpecialPoint
 from mjcont.results.stiffness import StiffnessStudy
 
 
 def stiffness_study(
-    mechanism: Any,
+    mechanism: Model,
     point: SpecialPoint,
     parameter: str = "k_j",
     tol: float = 1e-3,
@@ -45,7 +46,7 @@ def stiffness_study(
     MjcontError
         If the point belongs to another mechanism, or the locus does not reach stiff joints.
     """
-    if getattr(point.problem, "mjcf", None) != getattr(mechanism, "mjcf", None):
+    if point.model.mjcf != mechanism.mjcf:
         raise MjcontError(f"{point.label} belongs to another model than '{mechanism.name}'")
     own = mechanism.parameter(parameter).bounds
     value = point.parameters.get(parameter, mechanism.parameter(parameter).value)  # a path may be new to the point

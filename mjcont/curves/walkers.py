@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
 
 from mjcont.curves.collect import make_point
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.corner import CornerDetector
-from mjcont.numerics.points.events import Detector, Located
+from mjcont.numerics.points.events import Detector
 from mjcont.numerics.points.on_equilibria import (
     BranchPointDetector,
     HopfDetector,
@@ -18,15 +17,16 @@ from mjcont.numerics.points.on_equilibria import (
     fold_detector,
     zero_detector,
 )
-from mjcont.numerics.spectra.stability import negative_stiffness
 from mjcont.numerics.step.arclength import CurvePoint
-from mjcont.numerics.walk.longsteps import LongSteps
+from mjcont.numerics.walk.filled import Filled
+from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
+from mjcont.results.model import Model, model_of
 from mjcont.results.points import Point
 
 
 def point_stop(
-    problem: Any,
+    problem: Model,
     system: System,
     stop: Callable[[Point], str | None] | None,
     limits: Mapping[str, tuple[float, float]],
@@ -49,19 +49,19 @@ def point_stop(
 
 
 def equilibrium_detectors(
-    system: System, settings: Settings, neutral: list[Located], zeros: Mapping[str, float]
+    system: System, settings: Settings, zeros: Mapping[str, float]
 ) -> list[Detector]:
     """Return the detectors of a curve of equilibria, the one that guards against other branches first."""
     detectors: list[Detector] = [
         BranchPointDetector(system, settings),
         fold_detector(system, settings),
-        HopfDetector(system, settings, neutral),
+        HopfDetector(system, settings),
         MultipleDetector(system, settings),
     ]
-    if getattr(system.problem, "nonsmooth", False):
+    if system.problem.nonsmooth:
         detectors.append(CornerDetector(system, settings))
     for name, value in zeros.items():
-        monitor = monitor_of(system.problem, name, value)
+        monitor = monitor_of(model_of(system.problem), name, value)
         detectors.append(zero_detector(system, monitor, f"{name} = {value:g}", settings))
     return detectors
 
@@ -69,7 +69,6 @@ def equilibrium_detectors(
 def equilibrium_walker(
     system: System,
     settings: Settings,
-    neutral: list[Located],
     zeros: Mapping[str, float],
     stop: Callable[[CurvePoint], str | None] | None = None,
 ) -> Walker:
@@ -77,13 +76,12 @@ def equilibrium_walker(
 
     They are where points that differ in the parameter are evaluated together, and only dampers resist velocity.
     """
-    problem: Any = system.problem
-    cheap = getattr(problem, "passive", False) and problem.side_by_side(system.names[0])
-    long = LongSteps(system, settings, negative_stiffness) if cheap else None
-    return Walker(system, settings, equilibrium_detectors(system, settings, neutral, zeros), stop, long=long)
+    cheap = system.problem.passive and system.problem.side_by_side(system.names[0])
+    detectors = equilibrium_detectors(system, settings, zeros)
+    return Walker((Filled if cheap else OneByOne)(system, settings, detectors), stop)
 
 
-def monitor_of(problem: Any, name: str, value: float) -> Callable[[Array, Values], float]:
+def monitor_of(problem: Model, name: str, value: float) -> Callable[[Array, Values], float]:
     """Return the function (x, p) -> column - value for an observable or parameter."""
     if name in problem.parameters:
         return lambda x, values: values[name] - value

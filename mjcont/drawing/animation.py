@@ -232,7 +232,7 @@ def _diagram(
 
 def _unit(result: Result, name: str) -> str:
     if isinstance(result, Branch) and name in result.fixed:
-        return str(result.problem.parameter(name).unit)
+        return str(result.model.parameter(name).unit)
     return result.unit(name)
 
 

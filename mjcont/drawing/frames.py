@@ -15,10 +15,11 @@ import numpy as np
 from mjcont.errors import MjcontError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.points.kinds import KINDS
 from mjcont.results.branch import Branch
 from mjcont.results.histories import History
 from mjcont.results.loadpaths import Jump, LoadPath
-from mjcont.results.points import KIND_NAMES, show
+from mjcont.results.points import show
 
 Result = History | Branch | LoadPath
 # how far a jump counts at least, in parts of the diagram: shorter ones would pass unseen
@@ -85,13 +86,19 @@ def track_of(result: Result, x: str, y: str) -> Track:
     """
     if not isinstance(result, Result):
         raise MjcontError(f"animate shows a History, a Branch or a LoadPath, got a {type(result).__name__}")
-    if not isinstance(result.problem, Mechanism):
-        raise MjcontError("a result without a Mechanism has no pose to show: load its file with its model")
+    mechanism_of(result)
     if len(result) < 2:
         raise MjcontError(f"an animation needs at least two rows, and this {type(result).__name__} has {len(result)}")
     if isinstance(result, History):
         return _of_history(result, x, y)
     return _of_branch(result, x, y) if isinstance(result, Branch) else _of_path(result, x, y)
+
+
+def mechanism_of(result: Result) -> Mechanism:
+    """Return the mechanism of a result; an MjcontError where it has none."""
+    if not isinstance(result.problem, Mechanism):
+        raise MjcontError("a result without a Mechanism has no pose to show: load its file with its model")
+    return result.problem
 
 
 def frames_of(track: Track, count: int) -> list[Frame]:
@@ -118,7 +125,7 @@ def _of_history(history: History, x: str, y: str) -> Track:
     inputs = [c.name for c in history.columns.values() if c.role == "parameter"]
     values = [{**history.fixed, **{n: float(history[n][i]) for n in inputs}} for i in range(len(history))]
     notes = [""] * len(history)
-    return Track(history.problem, history.states, values, history[x], history[y], history["time"], notes, {})
+    return Track(mechanism_of(history), history.states, values, history[x], history[y], history["time"], notes, {})
 
 
 def _of_branch(branch: Branch, x: str, y: str) -> Track:
@@ -126,7 +133,7 @@ def _of_branch(branch: Branch, x: str, y: str) -> Track:
     notes = [str(s) for s in branch.stability] if branch.kind == "equilibria" else [""] * len(branch)
     named = {n: branch.unit(n) for n in branch.free}
     xs, ys = branch[x], branch[y]
-    return Track(branch.problem, branch.states, values, xs, ys, _arclength(xs, ys, xs, ys), notes, named)
+    return Track(mechanism_of(branch), branch.states, values, xs, ys, _arclength(xs, ys, xs, ys), notes, named)
 
 
 def _of_path(path: LoadPath, x: str, y: str) -> Track:
@@ -141,8 +148,8 @@ def _of_path(path: LoadPath, x: str, y: str) -> Track:
         if len(motion) < 2:
             continue
         here = {n: float(jump.before[n]) for n in values[i]}
-        seen = [_seen(path.problem, motion, here, n) for n in (x, y)]
-        step = _state_arclength(path.problem, motion)
+        seen = [_seen(mechanism_of(path), motion, here, n) for n in (x, y)]
+        step = _state_arclength(mechanism_of(path), motion)
         length = max(float(_arclength(seen[0][[0, -1]], seen[1][[0, -1]], xs, ys)[-1]), _SHORTEST_JUMP)
         after = clock[i + 1 :] - (clock[i + 1] if i + 1 < len(clock) else 0.0)
         ticks = clock[i] + length * step / max(float(step[-1]), 1e-300)
@@ -151,12 +158,12 @@ def _of_path(path: LoadPath, x: str, y: str) -> Track:
         states = np.concatenate([states[: i + 1], motion, states[i + 1 :]])
         values[i + 1 : i + 1] = [here] * len(motion)
         notes[i + 1 : i + 1] = [_said(jump)] * len(motion)
-    return Track(path.problem, states, values, xs, ys, clock, notes, {n: path.unit(n) for n in path.names})
+    return Track(mechanism_of(path), states, values, xs, ys, clock, notes, {n: path.unit(n) for n in path.names})
 
 
 def _said(jump: Jump) -> str:
     # by kind: a path counts its labels along itself, a branch beside it along the branch
-    return f"jump at a {KIND_NAMES[jump.kind]}" if jump.kind in KIND_NAMES else "jump"
+    return f"jump at a {KINDS[jump.kind].name}" if jump.kind in KINDS else "jump"
 
 
 def _motion(path: LoadPath, jump: Jump) -> Array:

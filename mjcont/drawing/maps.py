@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mjcont.drawing.axes import axis_label, scaled
-from mjcont.results.quantities import units as unit_of
+from mjcont.results.model import units as unit_of
 
 if TYPE_CHECKING:
     from mjcont.results.maps import SpecialMap
@@ -19,7 +19,7 @@ def draw_line(found: SpecialMap, quantity: str, ax: Any) -> Any:
     from mjcont.drawing.plotting import COLORS, new_figure
 
     ((name, values),) = found.axes.items()
-    units = unit_of(found.point.problem)
+    units = unit_of(found.point.model)
     axes = new_figure()[1] if ax is None else ax
     axes.plot(scaled(values, units[name]), scaled(found[quantity], units[quantity]), ".-", color=COLORS[0])
     axes.set(xlabel=axis_label(name, units[name]), ylabel=axis_label(quantity, units[quantity]))
@@ -30,7 +30,7 @@ def draw_map(found: SpecialMap, quantity: str, kind: str, ax: Any) -> Any:
     """Draw a quantity over the two parameters of a map: contours with their values, or a surface."""
     from mjcont.drawing.plotting import new_figure
 
-    units = unit_of(found.point.problem)
+    units = unit_of(found.point.model)
     (first, xs), (second, ys) = ((n, scaled(a, units[n])) for n, a in found.axes.items())
     z = np.ma.masked_invalid(scaled(found[quantity], units[quantity]).T)
     if ax is None:

@@ -16,6 +16,7 @@ from mjcont.drawing.axes import axis_label
 from mjcont.drawing.loadpaths import draw_path
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.points.kinds import KINDS
 from mjcont.results.branch import Branch
 from mjcont.results.files import write_atomically
 from mjcont.results.loadpaths import LoadPath
@@ -29,18 +30,7 @@ if TYPE_CHECKING:
 COLORS = ("#1b4f8a", "#c4541a", "#2a7d5f", "#7b3fa0", "#8a6d1b", "#b02a4a", "#4d4d4d")
 GREY = "#6e6e6e"
 LINE_STYLES: Mapping[str, Any] = {"stable": "-", "unstable": (0, (4.5, 2.0)), "marginal": (0, (1.0, 1.4))}
-# Marker and size by kind: shapes differ, so that a diagram can be read in greyscale.
-MARKERS: Mapping[str, tuple[str, float]] = {
-    "LP": ("o", 5.5),
-    "HB": ("s", 5.5),
-    "BP": ("D", 5.0),
-    "CP": ("*", 10.0),
-    "BT": ("^", 6.5),
-    "GH": ("v", 6.5),
-    "ZH": ("P", 6.5),
-    "HH": ("X", 6.5),
-    "UZ": ("x", 5.5),
-}
+MARKERS: Mapping[str, tuple[str, float]] = {k.code: k.marker for k in KINDS.values() if k.marker is not None}
 STYLE: Any = {
     "axes.axisbelow": True,
     "axes.edgecolor": "#333333",
@@ -340,7 +330,7 @@ def _unit(branch: Branch, name: str) -> str:
     """Return the unit of a column, also of a parameter that the branch holds fixed."""
     if name in branch.columns or branch.problem is None:
         return branch.units.get(name, "")
-    return str(branch.problem.parameter(name).unit)
+    return str(branch.model.parameter(name).unit)
 
 
 def _column(branch: Branch, name: str, degrees: bool) -> Array:

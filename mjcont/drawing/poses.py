@@ -182,7 +182,7 @@ def add_poses(
         If a point belongs to no mechanism, or its mechanism does not move in a plane.
     """
     chosen = _chosen(points, labels)
-    shown = [picture(_mechanism(p), p, plane=plane) for p in chosen.values()]
+    shown = [picture(mechanism_of(p), p, plane=plane) for p in chosen.values()]
     places = [(_coordinate(p, x, degrees), _coordinate(p, y, degrees)) for p in chosen.values()]
     _settle(ax)
     boxes = [padded(s, _TIGHT) for s in shown]
@@ -236,7 +236,8 @@ def _chosen(points: Branch | Mapping[str, Point], labels: Sequence[str] | Mappin
     return {(labels[n] if isinstance(labels, Mapping) else n): every[n] for n in names}
 
 
-def _mechanism(point: Point) -> Mechanism:
+def mechanism_of(point: Point) -> Mechanism:
+    """Return the mechanism of a point; an MjcontError where it has none."""
     if not isinstance(point.problem, Mechanism):
         raise MjcontError("a point without a Mechanism has no pose to draw: load its result file with its model")
     return point.problem
@@ -244,7 +245,7 @@ def _mechanism(point: Point) -> Mechanism:
 
 def _coordinate(point: Point, name: str, degrees: bool) -> float:
     value = point[name]
-    unit = point.units.get(name) or _mechanism(point).parameter(name).unit
+    unit = point.units.get(name) or mechanism_of(point).parameter(name).unit
     return float(np.degrees(value)) if degrees and unit == "rad" else value
 
 

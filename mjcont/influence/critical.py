@@ -22,20 +22,20 @@ from mjcont.numerics.equations.bordered import Factored, oriented
 from mjcont.numerics.equations.defining import Fold, Transversality
 from mjcont.numerics.equations.newton import Corrected, solve
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.points import normalform
 from mjcont.numerics.points.events import ScalarZero
-from mjcont.numerics.points.on_loci import conditions_of
+from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of, name_of
 from mjcont.results.maps import FollowedPoint
-from mjcont.results.points import KIND_NAMES, Point, SpecialPoint, show
+from mjcont.results.points import Point, SpecialPoint, show
 
-SUPPORTED = ("LP", "HB", "BP", "CP", "BT", "ZH", "UZ")
+SUPPORTED = (*CONTINUABLE, "UZ")
 _REACH = 0.3  # longest predicted step, scaled
 _SHORTEST = 1e-4  # of the way
 _AGREE = 0.2
 _CLOSE = 1e-4
 _STEEPER = 3.0
-_EXISTS = 1e-6
 _NEWTON = 6
 
 
@@ -57,7 +57,7 @@ def defining_kind(point: Point) -> str:
     kind = "turning" if turning else followed_as(point)
     if kind not in (*SUPPORTED, "turning"):
         raise MjcontError(
-            f"{point.label}, a {KIND_NAMES.get(point.kind, point.kind)}, has no regular defining system. "
+            f"{point.label}, a {name_of(point.kind)}, has no regular defining system. "
             f"Valid kinds: {', '.join(SUPPORTED)}, and plain equilibria."
         )
     return kind
@@ -65,7 +65,7 @@ def defining_kind(point: Point) -> str:
 
 def point_system(point: Point) -> System:
     """Return the square system that a point solves, with borders from the point itself."""
-    kind, problem = defining_kind(point), point.problem
+    kind, problem = defining_kind(point), point.model
     values = problem.values(point.parameters)
     problem, _ = hold_rigid_modes(problem, point.state, values)
     if not kind or not isinstance(point, SpecialPoint):
@@ -97,7 +97,7 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
         v = oriented(v / np.linalg.norm(v))
         w = w / (w @ v) if abs(w @ v) > 1e-12 * np.linalg.norm(w) else w / np.linalg.norm(w)
         function = normalform.fold_coefficient if kind == "LP" else normalform.cusp_coefficient
-        coefficients = {"a" if kind == "LP" else "c": function(local, v, w)}
+        coefficients = {KINDS[kind].coefficients[0]: function(local, v, w)}
         vectors = {"v": v, "w": w}
     elif kind == "HB":
         omega = math.sqrt(system.conditions[0].square(c.y[-1:]))  # type: ignore[attr-defined]
@@ -105,9 +105,9 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
         coefficients = {"omega": omega, "l1": l1, "type": "supercritical" if l1 < 0 else "subcritical"}
     elif kind != "UZ":
         coefficients, vectors = {k: v for k, v in coefficients.items() if k == "omega"}, {}
-    p = make_point(like.problem, c.x, values, like.kind)
+    p = make_point(like.model, c.x, values, like.kind)
     own = point_names(like)
-    free = {n: _around(like.problem.parameters[n], b, values[n]) if n in own else b for n, b in like.free.items()}
+    free = {n: _around(like.model.parameters[n], b, values[n]) if n in own else b for n, b in like.free.items()}
     return replace(
         like, parameters=p.parameters, observables=p.observables, state=p.state, eigenvalues=p.eigenvalues,
         n_unstable=p.n_unstable, stability=p.stability, tolerance=c.step, coefficients=coefficients, vectors=vectors,
@@ -140,7 +140,7 @@ def check_targets(point: SpecialPoint, targets: Mapping[str, float]) -> dict[str
         raise ParameterError("name at least one parameter to move")
     for name in targets:
         check_not_own(point, name)
-    values = point.problem.values({**point.parameters, **targets})
+    values = point.model.values({**point.parameters, **targets})
     for name in targets:
         check_alone(point, name)
     return {name: values[name] for name in targets}
@@ -148,7 +148,7 @@ def check_targets(point: SpecialPoint, targets: Mapping[str, float]) -> dict[str
 
 def check_not_own(point: Point, name: str) -> None:
     """Raise a ParameterError if the point's defining system solves for a parameter."""
-    point.problem.parameter(name)
+    point.model.parameter(name)
     if name in point_names(point):
         label = point.label if isinstance(point, SpecialPoint) else "the point"
         raise ParameterError(f"{name} is free at {label}, whose defining system solves for it: name other parameters")
@@ -163,7 +163,7 @@ def point_names(point: Point) -> tuple[str, ...]:
 
 def check_alone(point: Point, name: str) -> None:
     """Raise a ParameterError if another parameter that has been changed acts on the same field of the model."""
-    parameters = point.problem.parameters
+    parameters = point.model.parameters
     mine = parameters[name]
     if mine.kind == "gravity":
         return
@@ -202,13 +202,13 @@ def follow_point(
         See `check_targets`.
     """
     targets = check_targets(point, values)
-    start = {n: point.problem.values(point.parameters)[n] for n in targets}
-    before = point.problem.evaluations
+    start = {n: point.model.values(point.parameters)[n] for n in targets}
+    before = point.model.evaluations
     walk = _Walk(point, start, targets)
     status, message = walk.run(shortest, most)
     moved = walk.point if walk.t > 0.0 else point
     return FollowedPoint(
-        moved, status == "reached", status, message, tuple(walk.path), point.problem.evaluations - before
+        moved, status == "reached", status, message, tuple(walk.path), point.model.evaluations - before
     )
 
 
@@ -220,7 +220,8 @@ class _Walk:
         self.system = point_system(point)
         self.x, self.y, self.t = point.state, self.system.start_y(), 0.0
         self.path: list[dict[str, float]] = []
-        self.least, self.speed, self.reason = math.inf, 0.0, ""
+        self.least, self.speed = math.inf, 0.0
+        self.reason: Refused | None = None
         self._c: Corrected | None = None
 
     @property
@@ -281,19 +282,19 @@ class _Walk:
         x, y = system.move(self.x, self.y, dt * tangent)
         with np.errstate(all="ignore"):
             c = solve(system, x, y, most=_NEWTON)
-            if c.failure or not np.all(np.isfinite(c.y)) or not self._exists(system, c):
+            if c.failure is not None or not np.all(np.isfinite(c.y)) or not self._exists(system, c):
                 self.reason = c.failure
                 return None
             moved = system.difference(c.x, c.y, self.x, self.y)
             size, off = np.linalg.norm(moved), np.linalg.norm(moved - dt * tangent)
             if off > _AGREE * size + _CLOSE:
-                self.reason = "the solution found is not the one predicted"
+                self.reason = Refused(Why.OTHER_BRANCH, "the solution found is not the one predicted")
                 return None
             after, new_sign = self._tangent(system, t, c.x, c.y)
         bent = np.linalg.norm(moved - 0.5 * dt * (tangent + after))
-        turned = new_sign * sign < 0 and not any(k.unfolds for k in system.conditions)
+        turned = new_sign * sign < 0 and not any(k.direction is not None for k in system.conditions)
         if not bent <= 0.5 * _AGREE * size + _CLOSE or turned:
-            self.reason = "the solution found is not on the same curve"
+            self.reason = Refused(Why.OTHER_BRANCH, "the solution found is not on the same curve")
             return None
         self.t, self.x, self.y, self.system, self._c = t, c.x, c.y, system, c
         system.update(system.local(c.x, c.y), c.y)
@@ -305,27 +306,25 @@ class _Walk:
         """Whether a solution is a point of its kind: a branch point not unfolded, a Hopf point no neutral saddle."""
         at = len(system.free)
         for condition in system.conditions:
-            if condition.unfolds and abs(c.y[at]) > _EXISTS:
-                return False
-            square = getattr(condition, "square", None)
-            if square is not None and square(c.y[at : at + 1]) <= 0.0:
+            if not condition.exists(c.y[at : at + len(condition.aux)]):
                 return False
             at += len(condition.aux)
         return True
 
     def _beyond(self) -> str:
         for name, value in self.path[-1].items():
-            p = self.like.problem.parameters[name]
+            p = self.like.model.parameters[name]
             if name in self.system.names and not p.hard_bounds[0] <= value <= p.hard_bounds[1]:
                 return f"{self.like.label} leaves the actuator's ctrlrange: {name} = {show(value, p.unit)}"
         return ""
 
     def _where(self) -> str:
-        units = self.like.problem.parameters
+        units = self.like.model.parameters
         return ", ".join(f"{n} = {show(self.path[-1][n], units[n].unit, 5)}" for n in self.targets)
 
     def _lost(self) -> tuple[str, str]:
         label, where = self.like.label, self._where()
-        if self.speed > _STEEPER * self.least or "predicted" in self.reason or "curve" in self.reason:
+        other = self.reason is not None and self.reason.why is Why.OTHER_BRANCH
+        if self.speed > _STEEPER * self.least or other:
             return "ceased", f"{label} ceases to exist near {where}: it meets another {self.like.kind} and both vanish"
         return "stuck", f"{label} could not be followed beyond {where}: {self.reason or 'steps became too short'}"

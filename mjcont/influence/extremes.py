@@ -15,10 +15,11 @@ from mjcont.influence.critical import check_targets, follow_point
 from mjcont.influence.maps import special_map
 from mjcont.influence.sensitivities import sensitivities
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Why
 from mjcont.numerics.search.box import Minimum, minimise
-from mjcont.results.maps import SpecialMap, WorstCase
+from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
+from mjcont.results.model import units as unit_of
 from mjcont.results.points import SpecialPoint, show
-from mjcont.results.quantities import units as unit_of
 
 _TOL = 1e-7
 _CORNERS = 4  # parameters up to which every corner of the box is a start
@@ -87,10 +88,10 @@ def worst_case(
 
 def _result(box: _Box, found: Sequence[_Run], tried: int, grid: SpecialMap | None) -> WorstCase:
     if not found:  # nothing in the box was reached: what there is, is the point itself
-        reason = box.failures[0] if box.failures else "no start was reached"
+        reason = box.failures[0].message if box.failures else "no start was reached"
         return WorstCase(
             box.point, box.quantity, box.point[box.quantity], box.maximise,
-            {n: box.point.problem.values(box.point.parameters)[n] for n in box.ranges}, {}, math.nan, "not converged",
+            {n: box.point.model.values(box.point.parameters)[n] for n in box.ranges}, {}, math.nan, "not converged",
             f"nothing in the box was reached: {reason}", box.evaluations, (), (0, tried), grid,
         )
     run = min(found, key=lambda r: r.minimum.value)
@@ -100,17 +101,19 @@ def _result(box: _Box, found: Sequence[_Run], tried: int, grid: SpecialMap | Non
     for name, u, g in zip(box.ranges, m.u, m.gradient, strict=True):
         if (u <= _AT_BOUND and g > 0) or (u >= 1.0 - _AT_BOUND and g < 0):
             active[name] = "low" if u <= _AT_BOUND else "high"
-    at_edge = bool(m.failure) and m.undefined
-    status = "stationary" if not m.failure else "at the edge" if at_edge else "not converged"
-    edge = next((f for f in reversed(box.failures) if "ceases" in f), box.failures[-1] if box.failures else "")
+    status = "stationary"
+    if m.failure is not None:
+        status = "at the edge" if m.failure.why is Why.UNDEFINED else "not converged"
+    lost = [f for f in box.failures if f.status == "ceased"] or box.failures
+    edge = lost[-1].message if lost else ""
     words = [{
         "stationary": "at bounds of the box" if len(active) == len(m.u) else "stationary in the box",
         "at the edge": f"beside it the point is lost: {edge}",
-        "not converged": m.failure,
+        "not converged": str(m.failure),
     }[status]]
     words.append(f"{same} of {tried} runs end here")
     if status == "stationary" and box.failures:
-        words.append(f"parts of the box were not reached: {box.failures[0]}")
+        words.append(f"parts of the box were not reached: {box.failures[0].message}")
     if grid is not None:
         words.append(_confirmed(box, m.value, grid))
     return WorstCase(
@@ -128,7 +131,7 @@ def _confirmed(box: _Box, value: float, grid: SpecialMap) -> str:
     top = grid.largest(box.quantity, smallest=not box.maximise)[box.quantity]
     word = "none better" if box.sign * top / box.size >= value - _SAME else "a better one, which no run could keep"
     missing = f", {int((~there).sum())} nodes without the point" if not there.all() else ""
-    return f"a grid of {shape} has {word}, {show(top, unit_of(box.point.problem)[box.quantity])} at best{missing}"
+    return f"a grid of {shape} has {word}, {show(top, unit_of(box.point.model)[box.quantity])} at best{missing}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,18 +158,18 @@ class _Box:
         self.low = np.array([r[0] for r in ranges.values()])
         self.width = np.array([r[1] - r[0] for r in ranges.values()])
         self.size = abs(point[self.quantity]) or 1.0
-        self.failures: list[str] = []
+        self.failures: list[FollowedPoint] = []
         self.known: list[tuple[Array, SpecialPoint]] = [(self.unit(point.parameters), point)]
-        self._before = point.problem.evaluations
+        self._before = point.model.evaluations
 
     @property
     def evaluations(self) -> int:
         """Evaluations so far."""
-        return int(self.point.problem.evaluations - self._before)
+        return int(self.point.model.evaluations - self._before)
 
     def unit(self, values: Mapping[str, float]) -> Array:
         """Return parameter values as coordinates of the box."""
-        here = self.point.problem.values(values) if not self.ranges.keys() <= values.keys() else values
+        here = self.point.model.values(values) if not self.ranges.keys() <= values.keys() else values
         u: Array = (np.array([here[n] for n in self.ranges]) - self.low) / self.width
         return u
 
@@ -187,7 +190,7 @@ class _Box:
                 return found.point
             if found.status == "ceased":
                 break
-        self.failures.append(found.message)
+        self.failures.append(found)
         return None
 
     def function(self, u: Array) -> tuple[float, Array] | None:

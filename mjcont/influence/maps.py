@@ -41,10 +41,10 @@ def special_map(point: SpecialPoint, grid: Mapping[str, Sequence[float] | Array]
     axes = {name: _axis(name, values) for name, values in grid.items()}
     for end in (0, -1):
         check_targets(point, {name: float(a[end]) for name, a in axes.items()})
-    before = point.problem.evaluations
+    before = point.model.evaluations
     shape = tuple(len(a) for a in axes.values())
     points, messages = np.full(shape, None, dtype=object), np.full(shape, "", dtype=object)
-    here = point.problem.values(point.parameters)
+    here = point.model.values(point.parameters)
     nearest = tuple(int(np.argmin(np.abs(a - here[name]))) for name, a in axes.items())
     _reach(point, axes, nearest, points, messages)
     front = [nearest] if points[nearest] is not None else []
@@ -57,7 +57,7 @@ def special_map(point: SpecialPoint, grid: Mapping[str, Sequence[float] | Array]
                     reached += [other] if points[other] is not None else []
         front = reached
     messages[np.vectorize(lambda p: p is None)(points) & (messages == "")] = "no neighbour was reached"
-    return SpecialMap(point, axes, points, messages, point.problem.evaluations - before)
+    return SpecialMap(point, axes, points, messages, point.model.evaluations - before)
 
 
 def _axis(name: str, values: Sequence[float] | Array) -> Array:

@@ -66,10 +66,10 @@ def sensitivities(
         the point determines, or shares its field with another that has been changed.
     """
     defining_kind(point)
-    before = point.problem.evaluations
+    before = point.model.evaluations
     names = _parameters(point, parameters)
     system = point_system(point)
-    values, parameters_of = system.base, point.problem.parameters
+    values, parameters_of = system.base, point.model.parameters
     adjoint = Adjoint(system, point.state, system.start_y())
     targets = [_quantity(adjoint, name) for name in _names(point, system, quantities)]
     weights = [adjoint.weights(q.gradient) for q in targets]
@@ -89,12 +89,12 @@ def sensitivities(
     table.flags.writeable = False
     return Sensitivities(
         point, tuple(names), tuple(given), table, {n: values[n] for n in names} | given, units,
-        {**own, **checked_tolerances(tolerances or {}, names)}, point.problem.evaluations - before, tuple(notes),
+        {**own, **checked_tolerances(tolerances or {}, names)}, point.model.evaluations - before, tuple(notes),
     )
 
 
 def _parameters(point: Point, wanted: str | Sequence[str] | None) -> list[str]:
-    problem, own = point.problem, point_names(point)
+    problem, own = point.model, point_names(point)
     if wanted is None:
         return [n for n in problem.parameters if n not in own]
     names = list(dict.fromkeys([wanted] if isinstance(wanted, str) else wanted))
@@ -109,9 +109,9 @@ def _parameters(point: Point, wanted: str | Sequence[str] | None) -> list[str]:
 
 def _names(point: Point, system: System, wanted: str | Sequence[str] | None) -> list[str]:
     if wanted is None:
-        return list(system.names or point.problem.observables)
+        return list(system.names or point.model.observables)
     names = list(dict.fromkeys([wanted] if isinstance(wanted, str) else wanted))
-    known = [*system.names, *point.problem.observables]
+    known = [*system.names, *point.model.observables]
     known += ["omega"] if any(isinstance(c, Hopf) for c in system.conditions) else []
     for name in names:
         if name not in known:
@@ -192,7 +192,7 @@ def _breaks(adjoint: Adjoint, unfolding: Array, slope: Array, parameter: Paramet
 def _unfolding(adjoint: Adjoint) -> Array | None:
     """Return the adjoint of a branch point's unfolding: where it is not zero, the branch point does not persist."""
     system = adjoint.system
-    if not any(c.unfolds for c in system.conditions):
+    if not any(c.direction is not None for c in system.conditions):
         return None
     gradient = np.zeros(system.n + system.k)
     gradient[system.n + len(system.free)] = 1.0

@@ -10,8 +10,8 @@ import numpy as np
 from mjcont.mechanism.evaluation import Evaluator
 from mjcont.mechanism.sides import difference_rule, one_sided, parameter_rate
 from mjcont.mechanism.writer import FieldWriter
-from mjcont.numerics.equations.differences import FORWARD, Stencil, jacobian_from_rows, jacobian_steps, stencil
-from mjcont.numerics.equations.problem import Array, Linearization, Range, Ranges, Values
+from mjcont.numerics.equations.differences import FORWARD, jacobian_from_rows, jacobian_steps, stencil
+from mjcont.numerics.equations.problem import Array, Linearization, Range, Ranges, Stencil, Values
 from mjcont.results.quantities import Parameter
 
 # states whose derivatives share a batch, where they have few degrees of freedom

@@ -31,12 +31,13 @@ from mjcont.models import features, loading
 from mjcont.models.actuators import bush_names
 from mjcont.models.mjcf import exact_text
 from mjcont.models.states import checked_state, coordinates_are_flat, keyframes, model_name, state_labels, state_scale
-from mjcont.numerics.equations.differences import Stencil
-from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Values
+from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
+from mjcont.results.model import Model
 from mjcont.results.quantities import Parameter
+from mjcont.results.text import ParameterTable
 
 
-class Mechanism(Observed):
+class Mechanism(Observed, Model):
     """A MuJoCo model as an equilibrium problem f(q, p) = 0 with named parameters and observables.
 
     Use `Mechanism.from_xml`, `from_spec` or `from_model` to make one.
@@ -62,6 +63,8 @@ class Mechanism(Observed):
     """
 
     second_order = True
+    parameters: ParameterTable
+    declared: dict[str, Any]
     _core: Core
 
     def __init__(
@@ -84,7 +87,7 @@ class Mechanism(Observed):
         geometry = geometry or Geometry(None)
         self.parameters = collect_parameters(evaluation_copy(copy_model(model)), geometry)
         self.observables = model_observables(model)
-        self.declared: dict[str, Any] = {}
+        self.declared = {}
         self.keyframes = keyframes(model)
         self.constrained, self._passive = is_constrained(model), features.passive(model)
         self._held: tuple[str, ...] = ()
@@ -157,11 +160,9 @@ class Mechanism(Observed):
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`; a path such as `joint:hip.stiffness` is one, too."""
-        if name not in self.parameters:
-            if ":" not in name:
-                raise unknown_name("parameter", name, self.parameters)
+        if ":" in name and name not in self.parameters:
             self.declare(name, name)
-        return self.parameters[name]
+        return Model.parameter(self, name)
 
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the model's own for the others.

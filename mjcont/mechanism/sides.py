@@ -9,8 +9,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mjcont.numerics.equations.differences import CENTRED, PARAMETER, Stencil, kept_within
-from mjcont.numerics.equations.problem import Array, Range
+from mjcont.numerics.equations.differences import CENTRED, PARAMETER, kept_within
+from mjcont.numerics.equations.problem import Array, Range, Stencil
 from mjcont.results.quantities import Parameter
 
 _FINER = (1e-2, 1e-4)

@@ -23,8 +23,8 @@ from mjcont.numerics.equations.system import Local
 from mjcont.numerics.search.creep import creep, rates
 from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
 from mjcont.results.branch import Branch, sliced
+from mjcont.results.model import check_bounds
 from mjcont.results.points import Point
-from mjcont.results.quantities import check_bounds
 
 Saddles = Branch | Point | Sequence[Any]
 _ASIDE = 1e-2
@@ -91,7 +91,7 @@ def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: boo
 
 def _spaced(branch: Branch, rows: Sequence[int], labels: Sequence[str]) -> list[int]:
     """Return those of some rows that lie some way apart along the branch, with start, special points and the last."""
-    problem: Any = branch.problem
+    problem: Any = branch.model
     if problem is None:
         return list(rows)
     ((name, (low, high)),) = branch.free.items()
@@ -156,7 +156,7 @@ def barrier_map(point: Point, grid: Mapping[str, Any], *, search: bool = True) -
 def _problem(point: Point) -> Any:
     if point.problem is None:
         raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
-    return hold_rigid_modes(point.problem, point.state, point.parameters)[0]
+    return hold_rigid_modes(point.model, point.state, point.parameters)[0]
 
 
 def _listed(saddles: Saddles | None) -> list[Any]:

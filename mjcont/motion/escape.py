@@ -203,7 +203,7 @@ def _by_creep(problem: Any, x: Array, values: Values, rest_values: Values, left:
     point = None if end.failure else resting(problem, end.x, np.zeros(0), rest_values, left)
     steps = problem.evaluations - before
     if point is None:
-        message = end.failure or "the creeping motion ended where nothing rests stably"
+        message = str(end.failure or "the creeping motion ended where nothing rests stably")
         return Landing(None, "no rest", message, float("nan"), steps, 0, np.array([x, end.x]))
     return Landing(point, "rest", f"at rest after {end.steps} steps of creep", float("nan"), steps, 0,
                    np.array([x, point.state]))

@@ -11,29 +11,89 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.numerics.equations.differences import CENTRED, PARAMETER, Stencil, kept_within
-from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Values
+from mjcont.numerics.equations.differences import CENTRED, PARAMETER, kept_within
+from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.branch import Branch
+from mjcont.results.model import Model
 from mjcont.results.points import Column, special_from_row
 from mjcont.results.quantities import Parameter
 
 FRACTION = "leg"
 
 
-class Leg:
-    """A problem whose parameter `leg` leads from one set of parameter values, at 0, to another, at 1."""
+class Leg(Model):
+    """A model whose parameter `leg` leads from one set of parameter values, at 0, to another, at 1."""
 
-    def __init__(self, problem: Any, first: Values, last: Values) -> None:
+    def __init__(self, problem: Model, first: Values, last: Values) -> None:
         self.problem = problem
         self.first = {n: first[n] for n in last if last[n] != first[n]}
         self.last = {n: last[n] for n in self.first}
         self.parameters = {**problem.parameters, FRACTION: Parameter(FRACTION, "1", 0.0, (0.0, 1.0), "field")}
+        self.n, self.second_order, self.state_scale = problem.n, problem.second_order, problem.state_scale
+        self.name, self.observables, self.keyframes = problem.name, problem.observables, problem.keyframes
+        self.mjcf, self.declared, self.constrained = problem.mjcf, problem.declared, problem.constrained
 
-    def __getattr__(self, name: str) -> Any:
-        """Leave everything that no parameter touches to the problem itself."""
-        if name == "problem":  # not there yet while a copy is made
-            raise AttributeError(name)
-        return getattr(self.problem, name)
+    # -- what no parameter touches is the model's own ----------------------------------------------------------
+
+    @property
+    def evaluations(self) -> int:
+        """Number of evaluations of f so far."""
+        return self.problem.evaluations
+
+    @property
+    def passive(self) -> bool:
+        """Whether the model is passive."""
+        return self.problem.passive
+
+    @property
+    def nonsmooth(self) -> bool:
+        """Whether the model is smooth in pieces only."""
+        return self.problem.nonsmooth
+
+    @property
+    def failure(self) -> str:
+        """Why f had no value where it was evaluated last."""
+        return self.problem.failure
+
+    @property
+    def held(self) -> tuple[str, ...]:
+        """The rigid-body modes that are held."""
+        return self.problem.held
+
+    @property
+    def state_labels(self) -> list[tuple[str, str]]:
+        """Name and unit of each entry of the state."""
+        return self.problem.state_labels
+
+    def start_state(self, keyframe: str | None = None, state: Any = None) -> Array:
+        """Return a start of the model."""
+        return self.problem.start_state(keyframe, state)
+
+    def rigid_directions(self, x: Array) -> dict[str, Array]:
+        """Return the tangent vectors along the held rigid-body modes."""
+        return self.problem.rigid_directions(x)
+
+    def retract(self, x: Array, step: Array) -> Array:
+        """Return x moved by a tangent step (n,)."""
+        return self.problem.retract(x, step)
+
+    def retract_each(self, states: Array, steps: Array) -> Array:
+        """Return states moved by the rows of tangent steps (m, n)."""
+        return self.problem.retract_each(states, steps)
+
+    def difference(self, x1: Array, x0: Array) -> Array:
+        """Return the tangent step (n,) that takes x0 to x1."""
+        return self.problem.difference(x1, x0)
+
+    def difference_each(self, ends: Array, starts: Array) -> Array:
+        """Return the tangent steps (m, n) that take states to others."""
+        return self.problem.difference_each(ends, starts)
+
+    def admissible(self, x: Array, step: Array) -> Array:
+        """Return a tangent step without motions that the model holds."""
+        return self.problem.admissible(x, step)
+
+    # -- what the fraction moves -------------------------------------------------------------------------------
 
     def at(self, values: Values) -> dict[str, float]:
         """Return the parameter values that a fraction of the way stands for."""
@@ -58,21 +118,6 @@ class Leg:
         """Return f at x moved by each row of steps, (m, n)."""
         return self.problem.residuals(x, self.at(values), steps)
 
-    def side_by_side(self, name: str) -> bool:
-        """Return False: a fraction moves several parameters."""
-        del name
-        return False
-
-    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return f at states (m, nq), a parameter having a value of its own in each (m,), shape (m, n)."""
-        return np.array([self.residual(x, {**values, name: v}) for x, v in zip(states, column.tolist(), strict=True)])
-
-    def linearize_along(
-        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
-    ) -> None:
-        """Return None: a fraction moves several parameters."""
-        del states, values, name, column, bounds
-
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
     ) -> Linearization:
@@ -91,14 +136,14 @@ class Leg:
         """Return the difference rule and step for derivatives in a parameter."""
         if name != FRACTION:
             return self.problem.parameter_stencil(name, value, bounds)
-        affine = all(getattr(self.problem.parameter(n), "affine", False) for n in self.first)
+        affine = all(self.problem.parameter(n).affine for n in self.first)
         return kept_within(*((CENTRED, 1e-2) if affine else (PARAMETER, PARAMETER.step)), value, (0.0, 1.0))
 
     def pencil(self, x: Array, values: Values, jac: Any) -> Pencil:
         """Return the matrices whose eigenvalues tell stability."""
         return self.problem.pencil(x, self.at(values), jac)
 
-    def pencils(self, states: Sequence[Array], values: Sequence[Values], jacs: Sequence[Any]) -> list[Pencil]:
+    def pencils(self, states: Array, values: Sequence[Values], jacs: Sequence[Any]) -> list[Pencil]:
         """Return the matrices at many equilibria of a passive problem."""
         return self.problem.pencils(states, [self.at(v) for v in values], jacs)
 
@@ -108,32 +153,22 @@ class Leg:
 
     def periods(self, x: Array, values: Values) -> Array:
         """Return the coordinates' periods; infinity where there are none."""
-        periods = getattr(self.problem, "periods", None)
-        return periods(x, self.at(values)) if periods else np.full(self.problem.n, np.inf)
+        return self.problem.periods(x, self.at(values))
 
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the limits and contacts that carry load."""
-        active = getattr(self.problem, "active", None)
-        return active(x, self.at(values)) if active else frozenset()
-
-    def admissible(self, x: Array, step: Array) -> Array:
-        """Return a tangent step without motions that the problem holds."""
-        admissible = getattr(self.problem, "admissible", None)
-        return admissible(x, step) if admissible else step
+        return self.problem.active(x, self.at(values))
 
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables."""
         at = self.at(values) if isinstance(values, Mapping) else [self.at(v) for v in values]
         return self.problem.measure(states, at, names)
 
-    def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return all observables, a parameter having a value of its own in each state (m,)."""
-        return self.measure(states, [{**values, name: v} for v in column.tolist()])
-
 
 def unwrapped(branch: Branch) -> Branch:
     """Return a branch followed in `leg` as one of the problem itself, in the parameters that changed."""
-    leg: Leg = branch.problem
+    leg = branch.problem
+    assert isinstance(leg, Leg)
     fractions = branch.columns[FRACTION].values
     values = [leg.at({**branch.fixed, FRACTION: float(t)}) for t in fractions]
     columns = {

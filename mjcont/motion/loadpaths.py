@@ -28,6 +28,7 @@ from mjcont.numerics.equations.system import Free, Local, System
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint
+from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch, sliced
 from mjcont.results.loadpaths import Jump, LoadPath, Segment
@@ -230,8 +231,9 @@ class _Follower:
         forward = 1 if high > low else -1
         free = Free(name, min(low, high), max(low, high), problem.parameter(name).unit)
         system = System(problem, values, [free])
-        detectors = equilibrium_detectors(system, self.settings, [], {})
-        walker = Walker(system, self.settings, detectors, _unstable(system, forward), frozenset({"LP", "HB", "BP"}))
+        detectors = equilibrium_detectors(system, self.settings, {})
+        stepper = OneByOne(system, self.settings, detectors)
+        walker = Walker(stepper, _unstable(system, forward), frozenset({"LP", "HB", "BP"}))
         traces = run_directions(walker, at.state, system.start_y(), (float(forward),), None)
         if not traces[0].points:
             return None, (traces[0].end.status.value, traces[0].end.message), None
@@ -304,14 +306,14 @@ def _cut(branch: Branch, forward: int, target: float, name: str) -> tuple[Branch
         return branch, None
     at = int(order[last])
     before = int(order[max(last - 1, 0)])
-    travel = branch.problem.difference(branch.states[at], branch.states[before])
+    travel = branch.model.difference(branch.states[at], branch.states[before])
     point: Point = special.get(at, branch.row(at))
     kind = point.kind if isinstance(point, SpecialPoint) else "lost"
     if kind == "CO":
-        along = branch.problem.difference(branch.states[int(order[last + 1])], branch.states[at])
+        along = branch.model.difference(branch.states[int(order[last + 1])], branch.states[at])
     else:
-        along = _critical(branch.problem, point, kind, travel)
-    along = along * _ASIDE / max(float(np.max(np.abs(along) / branch.problem.state_scale)), 1e-300)
+        along = _critical(branch.model, point, kind, travel)
+    along = along * _ASIDE / max(float(np.max(np.abs(along) / branch.model.state_scale)), 1e-300)
     cut = sliced(branch, *sorted((int(order[0]), at)))
     return replace(cut, ends=[(status, sentence)]), _Lost(point, kind, along)
 

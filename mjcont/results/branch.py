@@ -13,6 +13,7 @@ import numpy as np
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.certificates import Certificate
+from mjcont.results.model import Model, model_of
 from mjcont.results.points import Column, Point, SpecialPoint, show
 
 
@@ -75,7 +76,7 @@ class Branch:
     start: str
     settings: Mapping[str, Any]
     provenance: Mapping[str, str]
-    problem: Any = field(repr=False, default=None)
+    problem: Model | None = field(repr=False, default=None)
     start_index: int = 0
     neutral_saddles: Sequence[Mapping[str, float]] = ()
     notes: Sequence[str] = ()
@@ -105,6 +106,11 @@ class Branch:
     def __getstate__(self) -> dict[str, Any]:
         """Return what is pickled and copied: everything, computed."""
         return {**self.__dict__, "_eigenvalues": self.eigenvalues}
+
+    @property
+    def model(self) -> Model:
+        """The problem; an MjcontError where the branch was loaded from a file without it."""
+        return model_of(self.problem, "the branch")
 
     @property
     def status(self) -> str:

@@ -26,6 +26,7 @@ import numpy as np
 from mjcont.results.branch import Branch
 from mjcont.results.certificates import Certificate
 from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, write_atomically, write_columns, write_common
+from mjcont.results.model import Model
 from mjcont.results.points import SpecialPoint, special_from_row
 
 _CODES = {"stable": 1, "marginal": 0, "unstable": -1}
@@ -89,7 +90,7 @@ def _write_special(g: h5py.Group, p: SpecialPoint) -> None:
         g[f"vectors/{name}"] = vector
 
 
-def read_branch(f: h5py.Group, problem: Any) -> Branch:
+def read_branch(f: h5py.Group, problem: Model | None) -> Branch:
     """Return the branch in a file or a group of one."""
     columns = read_columns(f)
     words = {v: k for k, v in _CODES.items()}

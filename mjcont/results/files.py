@@ -26,6 +26,7 @@ import h5py
 import numpy as np
 
 from mjcont.errors import MjcontError, ModelWarning, ResultFileError
+from mjcont.results.model import Model
 from mjcont.results.points import Column
 
 FORMAT_VERSION = 1
@@ -54,31 +55,32 @@ def write_atomically(path: str | Path, write: Callable[[Path], None]) -> Path:
 def write_common(f: h5py.Group, result: Any, *, model: bool = True) -> None:
     """Write what every result has: its columns, where it comes from, its model unless the file has that elsewhere."""
     f.attrs.update({f"provenance_{k}": v for k, v in result.provenance.items()})
-    mjcf = getattr(result.problem, "mjcf", None)
-    if mjcf is not None and model:
-        f["model"] = mjcf
-    f.attrs["declared"] = json.dumps(getattr(result.problem, "declared", {}))
+    problem: Model | None = result.problem
+    if problem is not None and problem.mjcf is not None and model:
+        f["model"] = problem.mjcf
+    f.attrs["declared"] = json.dumps(dict(problem.declared) if problem is not None else {})
     for c in result.columns.values():
         f.create_dataset(f"columns/{c.name}", data=c.values, track_order=True).attrs.update(unit=c.unit, role=c.role)
     f["columns"].attrs["order"] = json.dumps(list(result.columns))
 
 
-def read_problem(f: h5py.File, problem: Any) -> Any:
+def read_problem(f: h5py.File, problem: Model | None) -> Model | None:
     """Return the problem given, or the Mechanism rebuilt from the file's MJCF, or None."""
-    if problem is None and "model" in f:
-        from mjcont.mechanism.mechanism import Mechanism
+    if problem is not None or "model" not in f:
+        return problem
+    from mjcont.mechanism.mechanism import Mechanism
 
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ModelWarning)  # said when the result was computed
-            problem = Mechanism.from_xml(f["model"].asstr()[()])
-        for name, given in json.loads(f.attrs["declared"]).items():
-            if "function" in given:
-                raise ResultFileError(
-                    f"result file '{f.filename}': its parameter '{name}' is the Python function {given['function']}, "
-                    "which a file cannot carry: declare it on a Mechanism again and load with problem=mechanism"
-                )
-            problem.declare(name, *given["paths"], unit=given["unit"], bounds=given["bounds"])
-    return problem
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ModelWarning)  # said when the result was computed
+        mechanism = Mechanism.from_xml(f["model"].asstr()[()])
+    for name, given in json.loads(f.attrs["declared"]).items():
+        if "function" in given:
+            raise ResultFileError(
+                f"result file '{f.filename}': its parameter '{name}' is the Python function {given['function']}, "
+                "which a file cannot carry: declare it on a Mechanism again and load with problem=mechanism"
+            )
+        mechanism.declare(name, *given["paths"], unit=given["unit"], bounds=given["bounds"])
+    return mechanism
 
 
 def read_columns(f: h5py.Group) -> dict[str, Column]:

@@ -12,6 +12,7 @@ from mjcont.errors import MjcontError, ResultFileError
 from mjcont.results import histories, loadpaths, sweeps
 from mjcont.results.branchfiles import read_branch
 from mjcont.results.files import FORMAT_VERSION, read_problem
+from mjcont.results.model import Model
 
 # What h5py, json and our own reading raise on files with parts missing or overwritten.
 _DAMAGED = (KeyError, IndexError, ValueError, TypeError, AttributeError, OSError, RuntimeError, MjcontError)
@@ -24,7 +25,7 @@ READERS: Mapping[str, Reader] = {
 }
 
 
-def load(path: str | Path, problem: Any = None) -> Any:
+def load(path: str | Path, problem: Model | None = None) -> Any:
     """Read a result; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
 
     Raises

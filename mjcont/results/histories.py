@@ -24,6 +24,7 @@ import numpy as np
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, write_atomically, write_columns, write_common
+from mjcont.results.model import Model
 from mjcont.results.points import Column
 
 KIND = "history"
@@ -53,7 +54,7 @@ class History:
     message: str
     settings: Mapping[str, Any]
     name: str = ""
-    problem: Any = field(repr=False, default=None)
+    problem: Model | None = field(repr=False, default=None)
     provenance: Mapping[str, str] = field(default_factory=dict)
     fixed: Mapping[str, float] = field(default_factory=dict, repr=False)
 
@@ -116,7 +117,7 @@ class History:
         )
 
 
-def read(f: h5py.File, problem: Any) -> History:
+def read(f: h5py.File, problem: Model | None) -> History:
     """Return the history in a file."""
     columns = read_columns(f)
     states, velocities = frozen(f["states"][()]), frozen(f["velocities"][()])

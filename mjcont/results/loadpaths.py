@@ -22,10 +22,12 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.points.kinds import KINDS
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
 from mjcont.results.files import FORMAT_VERSION, write_atomically, write_columns
-from mjcont.results.points import KIND_NAMES, Column, Point, show
+from mjcont.results.model import Model
+from mjcont.results.points import Column, Point, show
 
 KIND = "load path"
 _SHOWN = 2
@@ -89,7 +91,7 @@ class Jump:
 
     def __str__(self) -> str:
         """Return a sentence: where, from, to, energy, time."""
-        what = KIND_NAMES.get(self.kind, "unstable")
+        what = KINDS[self.kind].name if self.kind in KINDS else "unstable"
         names = list(self.before.observables)[:_SHOWN]
         units = self.before.units
 
@@ -126,7 +128,7 @@ class LoadPath:
     status: str
     message: str
     evaluations: int = 0
-    problem: Any = field(repr=False, default=None)
+    problem: Model | None = field(repr=False, default=None)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -192,9 +194,9 @@ class LoadPath:
                 status=self.status,
                 message=self.message,
                 evaluations=self.evaluations,
-                declared=json.dumps(getattr(self.problem, "declared", {})),
+                declared=json.dumps(dict(self.problem.declared) if self.problem is not None else {}),
             )
-            mjcf = getattr(self.problem, "mjcf", None)
+            mjcf = self.problem.mjcf if self.problem is not None else None
             if mjcf is not None:
                 f["model"] = mjcf
             for i, s in enumerate(self.segments):
@@ -245,7 +247,7 @@ def _segment(s: Segment) -> str:
     return f"leg {s.leg + 1}: {', '.join(spans)} ({len(s.branch)} rows)"
 
 
-def read(f: h5py.File, problem: Any) -> LoadPath:
+def read(f: h5py.File, problem: Model | None) -> LoadPath:
     """Return the load path in a file."""
     groups = [f[f"segments/{i}"] for i in range(len(f["segments"]))]
     segments = [

@@ -11,8 +11,8 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
+from mjcont.results.model import units as unit_of
 from mjcont.results.points import SpecialPoint, show
-from mjcont.results.quantities import units as unit_of
 
 _KINDS = ("contour", "surface")
 
@@ -84,7 +84,7 @@ class SpecialMap:
             f"{self.point.label} over {shape} values of {', '.join(self.axes)}: exists at {int(there.sum())} of "
             f"{there.size}; {self.evaluations} evaluations"
         ]
-        units = unit_of(self.point.problem)
+        units = unit_of(self.point.model)
         for name in self.point.free:
             ends = [(word, self.largest(name, smallest=low)) for word, low in (("from", True), ("to", False))]
             lines.append(f"  {name}: " + " ".join(
@@ -136,7 +136,7 @@ class WorstCase:
 
     def __str__(self) -> str:
         """Return the extreme, where it is, and the sentence."""
-        units = unit_of(self.point.problem)
+        units = unit_of(self.point.model)
         word = "largest" if self.maximise else "smallest"
         where = ", ".join(
             f"{n} = {show(v, units[n], 6)}" + (f" ({self.active[n]})" if n in self.active else "")

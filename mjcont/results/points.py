@@ -9,20 +9,9 @@ from typing import Any
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.points.kinds import name_of
+from mjcont.results.model import Model, model_of
 
-KIND_NAMES = {
-    "LP": "fold",
-    "HB": "Hopf point",
-    "BP": "branch point",
-    "CP": "cusp",
-    "BT": "Bogdanov-Takens point",
-    "GH": "generalised Hopf point",
-    "ZH": "zero-Hopf point",
-    "HH": "double Hopf point",
-    "UZ": "user zero",
-    "CO": "corner",
-    "EP": "end",
-}
 # observables that a summary line shows; all are in the columns
 _SHOWN = 5
 
@@ -55,7 +44,7 @@ class Point:
     eigenvalues: Array
     stability: str
     n_unstable: int
-    problem: Any = field(repr=False)
+    problem: Model | None = field(repr=False)
     units: Mapping[str, str] = field(repr=False, default_factory=dict)
 
     def __getitem__(self, name: str) -> float:
@@ -65,6 +54,11 @@ class Point:
         if name in self.observables:
             return self.observables[name]
         raise unknown_name("parameter or observable", name, [*self.parameters, *self.observables])
+
+    @property
+    def model(self) -> Model:
+        """The problem; an MjcontError where the point was loaded from a file without it."""
+        return model_of(self.problem, "the point")
 
     def __str__(self) -> str:
         """Return stability and observables."""
@@ -102,7 +96,7 @@ class SpecialPoint(Point):
 
     def __str__(self) -> str:
         """Return kind, parameters, observables, coefficients and the tolerance reached."""
-        head = f"{self.label} ({KIND_NAMES.get(self.kind, self.kind)})"
+        head = f"{self.label} ({name_of(self.kind)})"
         names = [*self.free, *list(self.observables)[:_SHOWN]]
         shown = ", ".join(f"{n} = {show(self[n], self.units.get(n, ''))}" for n in names)
         extra = "".join(f", {k} = {_short(v)}" for k, v in self.coefficients.items())

@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 from functools import cache
 from importlib import metadata
-from typing import Any
+
+from mjcont.results.model import Model
 
 
 @cache
@@ -18,10 +19,9 @@ def _versions() -> tuple[tuple[str, str], ...]:
         return (*found, ("mjcont", "not installed"))
 
 
-def provenance(problem: Any) -> dict[str, str]:
+def provenance(problem: Model | None) -> dict[str, str]:
     """Return versions and the model's hash."""
     versions = dict(_versions())
-    mjcf = getattr(problem, "mjcf", None)
-    if mjcf is not None:
-        versions["model_sha256"] = hashlib.sha256(mjcf.encode()).hexdigest()
+    if problem is not None and problem.mjcf is not None:
+        versions["model_sha256"] = hashlib.sha256(problem.mjcf.encode()).hexdigest()
     return versions

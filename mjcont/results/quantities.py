@@ -229,33 +229,3 @@ def default_bounds(value: float, unit: str = "") -> tuple[float, float]:
     if value > 0:
         return (0.1 * value, 10.0 * value)
     return (-1.0, 1.0) if value == 0 else (10.0 * value, 0.1 * value)
-
-
-def units(problem: Any) -> dict[str, str]:
-    """Return the units of all parameters and observables."""
-    found = {p.name: p.unit for p in problem.parameters.values()}
-    return found | {o.name: o.unit for o in problem.observables.values()}
-
-
-def check_bounds(problem: Any, name: str, bounds: tuple[float, float] | None) -> tuple[float, float]:
-    """Return the bounds of a parameter: those given, or its own.
-
-    Raises
-    ------
-    BoundsError
-        If they are not two increasing finite numbers, or lie outside a control's range.
-    """
-    parameter = problem.parameter(name)
-    if parameter.kind == "switch":
-        raise BoundsError(f"'{name}' is a switch, 0 or 1, and cannot vary along a curve: give it as a start value")
-    if bounds is None:
-        own, hard = parameter.bounds, parameter.hard_bounds
-        return finite_pair(f"bounds of {name}", (max(own[0], hard[0]), min(own[1], hard[1])))
-    low, high = finite_pair(f"bounds of {name}", bounds)
-    hard_low, hard_high = parameter.hard_bounds
-    if low < hard_low or high > hard_high:
-        raise BoundsError(
-            f"bounds ({low:g}, {high:g}) of {name} leave {parameter.limits}: narrow the bounds"
-            + ("" if parameter.springs else " or widen the range in the XML")
-        )
-    return low, high

@@ -14,7 +14,8 @@ import numpy as np
 
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.points import KIND_NAMES, Point, SpecialPoint, show
+from mjcont.numerics.points.kinds import name_of
+from mjcont.results.points import Point, SpecialPoint, show
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,9 +170,9 @@ def table(s: Sensitivities) -> str:
 def headline(s: Sensitivities) -> str:
     """Return what the derivatives are of."""
     p = s.point
-    name = f"{p.label} ({KIND_NAMES.get(p.kind, p.kind)})" if isinstance(p, SpecialPoint) and p.kind else "equilibrium"
+    name = f"{p.label} ({name_of(p.kind)})" if isinstance(p, SpecialPoint) and p.kind else "equilibrium"
     shown = ", ".join(f"{q} = {show(s.values[q], s.units[q])}" for q in s.quantities)
-    return f"{name} of {p.problem.name}: {shown}; {s.evaluations} evaluations"
+    return f"{name} of {p.model.name}: {shown}; {s.evaluations} evaluations"
 
 
 def _slope(s: Sensitivities, i: int, j: int) -> str:

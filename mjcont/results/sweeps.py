@@ -24,6 +24,7 @@ import numpy as np
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, write_atomically, write_columns
+from mjcont.results.model import Model
 from mjcont.results.points import Column, show
 
 KIND = "sweep"
@@ -156,7 +157,7 @@ class SweepTable:
         return "\n".join(lines)
 
 
-def read(f: h5py.File, problem: Any = None) -> SweepTable:
+def read(f: h5py.File, problem: Model | None = None) -> SweepTable:
     """Return the sweep in a file."""
     return SweepTable(
         str(f.attrs["name"]),

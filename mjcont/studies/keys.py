@@ -15,7 +15,7 @@ from typing import Any
 
 from mjcont.errors import MjcontError, StudyError, unknown_name
 from mjcont.numerics.equations.settings import Settings, make_settings
-from mjcont.results.quantities import check_bounds, units
+from mjcont.results.model import check_bounds, units
 from mjcont.studies.schema import Table, shown
 
 FILE_STEM = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mjcont.results.files import write_atomically
-from mjcont.results.quantities import units
+from mjcont.results.model import units
 
 if TYPE_CHECKING:
     from mjcont.results.barriers import BarrierCurve
@@ -54,13 +54,13 @@ def worst_case_csv(found: WorstCase, path: Path) -> Path:
     names = list(dict.fromkeys([*found.parameters, found.quantity]))
     last = {**found.parameters, found.quantity: found.value}
     rows = [*found.path, *([last] if not found.path or dict(found.path[-1]) != last else [])]
-    return _write(path, _heads(names, units(found.point.problem)), [[float(r[n]) for n in names] for r in rows])
+    return _write(path, _heads(names, units(found.point.model)), [[float(r[n]) for n in names] for r in rows])
 
 
 def map_csv(found: SpecialMap, path: Path) -> Path:
     """Write a row a node: the grid's parameters, the point's own, observables, and why it is not there."""
     names = [*(n for n in found.point.free if n not in found.axes), *found.point.observables]
-    head = [*_heads([*found.axes, *names], units(found.point.problem)), "message"]
+    head = [*_heads([*found.axes, *names], units(found.point.model)), "message"]
     columns = [found[n] for n in names]
     rows = []
     for node in itertools.product(*(range(len(a)) for a in found.axes.values())):

@@ -6,14 +6,12 @@ import re
 from collections.abc import Sequence
 
 from mjcont.errors import unknown_name
-from mjcont.results.points import KIND_NAMES
+from mjcont.numerics.points.kinds import KINDS, found_on
 from mjcont.studies.keys import Context, Known, Reader, Reference
 from mjcont.studies.schema import Table
 
 _LABEL = re.compile(r"([A-Z]+)([1-9]\d*)")
 # labels of points: by kind of result those that it can have, and the names that it has for sure
-LOCUS_KINDS = ("CP", "BT", "ZH", "HH", "GH", "BP", "UZ", "CO")
-BRANCH_KINDS = ("LP", "HB", "BP", "UZ", "CO")
 PLACES = {"search": (), "branch": ("start", "first", "last"), "locus": (), "diagram": (), "path": ("final",)}
 
 
@@ -72,12 +70,12 @@ def refer(
     places = PLACES[known.kind] if labels is None else ()
     if label in places:
         return Reference(name, label)
-    valid = {"search": ("E",), "path": ()}.get(known.kind, LOCUS_KINDS if known.kind == "locus" else BRANCH_KINDS)
+    valid = {"search": ("E",), "path": ()}.get(known.kind, found_on("locus" if known.kind == "locus" else "branch"))
     valid = tuple(v for v in valid if labels is None or v in labels)
     match = _LABEL.fullmatch(label)
     if match is None or match[1] not in valid:
         choices = ", ".join([*(f"{v}1" for v in valid), *places]) + (", ..." if valid else "")
-        what = f", a {KIND_NAMES[match[1]]}," if match is not None and match[1] in KIND_NAMES else ""
+        what = f", a {KINDS[match[1]].name}," if match is not None and match[1] in KINDS else ""
         raise table.error(key, f"'{label}'{what} is no point of '{name}' that will do here. Valid: {choices}.")
     if match[1] == "UZ" and not known.zeros:
         raise table.error(key, f"'{label}': '{name}' asks for no zeros, so it will have no UZ points")

@@ -12,8 +12,8 @@ from typing import Any
 
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.results.branch import Branch
+from mjcont.results.model import units
 from mjcont.results.points import show
-from mjcont.results.quantities import units
 from mjcont.studies.keys import Reference
 from mjcont.studies.plans import Task
 from mjcont.studies.reporter import Reporter

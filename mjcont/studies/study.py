@@ -12,8 +12,8 @@ from typing import Any
 from mjcont.curves.continuation import continue_equilibria
 from mjcont.errors import MjcontError
 from mjcont.results.files import output_folder
+from mjcont.results.model import units
 from mjcont.results.points import show
-from mjcont.results.quantities import units
 from mjcont.studies.plans import BranchPlan, PlotPlan, Study, Task, check_study, load_study
 from mjcont.studies.reporter import Reporter
 from mjcont.studies.runs import Running, compute, curves_of, interrupted, start_of, store_curve, task_line

@@ -6,12 +6,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from mjcont.curves.loci import CONTINUABLE
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.motion.loadpaths import LANDINGS
 from mjcont.motion.stepping import INTEGRATORS
+from mjcont.numerics.points import kinds
+from mjcont.numerics.points.kinds import CONTINUABLE
+from mjcont.results.model import check_bounds, units
 from mjcont.results.points import show
-from mjcont.results.quantities import check_bounds, units
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
 from mjcont.studies.keys import Context, Key, Kind
@@ -22,7 +23,7 @@ PLOT_SUFFIXES = (".png", ".pdf", ".svg")
 CURVES = ("branch", "locus", "diagram", "path")
 SPECIAL = ("branch", "locus")
 _POSED = ("start", "keyframe", "state")
-_LOCATED = ("LP", "HB", "BP", "CP", "BT", "ZH", "UZ")
+_LOCATED = (*CONTINUABLE, "UZ")
 
 
 def _own_bounds(found: dict[str, Any], context: Context) -> tuple[float, float]:
@@ -142,7 +143,8 @@ def _not_own(found: Mapping[str, Any], key: str, table: Table, context: Context)
     """Refuse parameters that the point's own equations determine."""
     reference = found["point"]
     free = _free_at(reference, context)
-    own = free if reference.label[:2] in ("CP", "BT", "ZH") else free[:1]
+    kind = kinds.KINDS.get(reference.label[:2])
+    own = free if kind is not None and kind.codimension > 1 else free[:1]
     for name in found[key] or ():
         if name in own and reference.label[:2] != "UZ":
             raise table.error(key, f"{name} is free at {reference}, which determines it: name other parameters")

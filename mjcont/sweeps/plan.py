@@ -74,10 +74,10 @@ def of_points(points: Mapping[str, SpecialPoint], vary: Vary | None) -> Setup:
     for name, p in points.items():
         if p.problem is not first.problem:
             raise ParameterError(f"{name} belongs to another Mechanism: the points of a sweep share one")
-    nominal = first.problem.values(first.parameters)
+    nominal = first.model.values(first.parameters)
     for n in vary:
-        first.problem.parameter(n)
-        if len({p.problem.values(p.parameters)[n] for p in points.values()}) > 1:
+        first.model.parameter(n)
+        if len({p.model.values(p.parameters)[n] for p in points.values()}) > 1:
             raise ParameterError(f"the nominal value of {n} differs between the points")
     record = tuple(f"{n}.{q}" for n, p in points.items() for q in point_names(p))
     plan = SweepPlan((), {}, DESIGNS[0])

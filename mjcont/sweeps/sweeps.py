@@ -17,9 +17,9 @@ from mjcont.influence.critical import check_alone, check_not_own
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.search.spanning import heights, spanning_tree
 from mjcont.results.files import frozen, output_folder
+from mjcont.results.model import units
 from mjcont.results.points import Column, SpecialPoint
 from mjcont.results.provenance import provenance
-from mjcont.results.quantities import units
 from mjcont.results.sweeps import SweepTable
 from mjcont.sweeps.cluster import make_crew
 from mjcont.sweeps.designs import Spread, Vary, make_design, scaled_distances

@@ -44,7 +44,7 @@ def test_points_lie_as_close_as_the_steps_ask(k_j):
 @pytest.mark.parametrize(("model", "parameter"), [("overcentre", "F"), ("nose_gear", "F_ret")])
 def test_steps_filled_together_lead_to_the_curve_of_steps_filled_one_by_one(model, parameter, monkeypatch):
     together = branch_of(model, math.inf)
-    monkeypatch.setattr("mjcont.numerics.walk.trace._AHEAD", 0)
+    monkeypatch.setattr("mjcont.numerics.walk.filled._AHEAD", 0)
     values = {p: together.parameters_at(together.start_index)[p] for p in together.problem.parameters}
     start, bounds = together.states[together.start_index], together.free[parameter]
     alone = mc.continue_equilibria(together.problem, parameter, bounds, values, state=start, chord=math.inf)

@@ -12,10 +12,12 @@ from problems.failing import BAD, CASES, PLAIN, Bad, walk
 
 import mjcont as mc
 import mjcont.numerics
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.points import events
 from mjcont.numerics.spectra import stability
-from mjcont.numerics.walk import guard, trace
-from mjcont.numerics.walk.steps import Status
+from mjcont.numerics.step.arclength import next_step
+from mjcont.numerics.walk import guard, onebyone
+from mjcont.numerics.walk.steps import Status, Step
 
 
 def public_names():
@@ -40,19 +42,25 @@ def test_a_routine_returns_where_it_can_compute_nothing(name):
 
 # -- what is said -------------------------------------------------------------------------------------------------
 
+def is_told(refused):
+    """Whether something is refused, in words."""
+    return isinstance(refused, Refused) and len(str(refused).split()) >= 3
+
+
 UNDEFINED = [Bad(kind, n, s) for kind in ("nan", "infinite") for n in (1, 2, 3) for s in (False, True)]
 
 
 @pytest.mark.parametrize("name", ["newton.correct", "newton.solve", "newton.find_start", "creep.creep"])
 def test_a_solver_without_a_value_of_f_fails_with_a_sentence(name):
     with np.errstate(all="ignore"):
-        assert all(len(CASES[name](bad).failure.split()) >= 3 for bad in UNDEFINED)
+        assert all(is_told(CASES[name](bad).failure) for bad in UNDEFINED)
 
 
 @pytest.mark.parametrize("name", ["arclength.advance", "arclength.first_point", "arclength.land"])
 def test_a_step_without_a_value_of_f_is_refused_with_a_sentence(name):
     with np.errstate(all="ignore"):
-        assert all(len(CASES[name](bad).split()) > 3 for bad in UNDEFINED)
+        refused = [CASES[name](bad) for bad in UNDEFINED]
+        assert all(is_told(r) and r.why is Why.UNDEFINED for r in refused)
 
 
 def test_a_walk_without_a_value_of_f_ends_with_a_status():
@@ -74,13 +82,13 @@ def test_a_solution_between_points_that_coincide_is_not_between_them():
 
 
 def test_an_error_that_nobody_expected_ends_a_curve_with_a_status_and_keeps_its_points(monkeypatch):
-    def broken(self, old, inside, new):
-        if new.y[0] > 0.2:
+    def broken(self, leap):
+        if leap.new.y[0] > 0.2:
             raise IndexError("list index out of range")
-        return [new]
+        return Step([leap.new], next_step(leap.h, leap.new, self.settings), leap.ending)
 
     monkeypatch.setattr(guard, "_raised", False)
-    monkeypatch.setattr(trace.Walker, "_items", broken)
+    monkeypatch.setattr(onebyone.OneByOne, "looked", broken)
     line = mc.VectorField(lambda u, p: [u[0] - p["p"]], [0.0], {"p": 0.0})
     branch = mc.continue_equilibria(line, "p", bounds=(-1.0, 1.0))
     assert branch.ends[0][0] == "at bound"
@@ -91,7 +99,10 @@ def test_an_error_that_nobody_expected_ends_a_curve_with_a_status_and_keeps_its_
 
 
 def test_an_error_that_nobody_expected_is_raised_in_the_tests(monkeypatch):
-    monkeypatch.setattr(trace.Walker, "_items", lambda self, old, inside, new: inside.points[0])
+    def broken(self, leap):
+        raise IndexError("list index out of range")
+
+    monkeypatch.setattr(onebyone.OneByOne, "looked", broken)
     line = mc.VectorField(lambda u, p: [u[0] - p["p"]], [0.0], {"p": 0.0})
     with pytest.raises(IndexError):
         mc.continue_equilibria(line, "p", bounds=(-1.0, 1.0))

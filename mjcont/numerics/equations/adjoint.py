@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -36,7 +36,7 @@ from mjcont.numerics.equations.differences import (
     second_form,
 )
 from mjcont.numerics.equations.problem import Array, Values
-from mjcont.numerics.equations.system import Local, System
+from mjcont.numerics.equations.system import Condition, Local, System
 
 _RAY = 1e-2
 _STATE_STEP = 3e-3
@@ -91,8 +91,8 @@ class Adjoint:
             rows[:, n + j] = _sixth(lambda t, j=j: self._conditions_at(j, t), _RAY)  # type: ignore[misc]
         at = len(system.free)
         for c in system.conditions:
-            if c.unfolds:
-                columns[:, at] = c.direction  # type: ignore[attr-defined]
+            if c.direction is not None:
+                columns[:, at] = c.direction
             at += len(c.aux)
         return border(self.local.jac, columns, rows[:, :n], rows[:, n:])
 
@@ -110,8 +110,8 @@ class Adjoint:
         def equations(value: float) -> Array:
             return self._frozen.equations({**here, name: value}, self.y, conditions)
 
-        problem: Any = system.problem
-        parameter, value = problem.parameters[name], here[name]
+        problem, value = system.problem, here[name]
+        parameter = problem.parameter(name)
         rule, h = problem.parameter_stencil(name, value, bounds)
         if parameter.affine and conditions and not self._frozen.all_frozen:  # only forces are affine, not conditions
             low, high = bounds or parameter.bounds
@@ -123,7 +123,8 @@ class Adjoint:
             h = inward(value, h, parameter.hard_bounds)
             return (equations(value + h) - self._base[conditions]) / h
         parts = [w * equations(value + o * h) for o, w in zip(rule.offsets, rule.weights, strict=True)]
-        return np.sum(parts, axis=0) / h
+        found: Array = np.sum(parts, axis=0) / h
+        return found
 
 
 class _Frozen:
@@ -131,7 +132,7 @@ class _Frozen:
 
     def __init__(self, system: System, local: Local) -> None:
         self.system, self.local = system, local
-        self.conditions = cast(Sequence[Any], system.conditions)
+        self.conditions = system.conditions
         self.fold: Fold | None = next((c for c in self.conditions if isinstance(c, Fold)), None)
         self.cusp: FoldCoefficient | None = next((c for c in self.conditions if isinstance(c, FoldCoefficient)), None)
         self._vectors: Mapping[str, Array] | None = None
@@ -231,7 +232,7 @@ class _Frozen:
         rows = problem.residuals(local.x, local.values, steps.reshape(-1, len(e))) @ self.vectors["w"]
         return float((_FIRST @ rows.reshape(len(_NODES), len(NODES)) @ SECOND) / (_RAY * h * h))
 
-    def _by_differences(self, condition: Any, aux: Array) -> Array:
+    def _by_differences(self, condition: Condition, aux: Array) -> Array:
         system, local = self.system, self.local
         problem = local.problem
 
@@ -249,4 +250,5 @@ class _Frozen:
 def _sixth(function: Callable[[float], Array], step: float) -> Array:
     """Return the derivative at 0 of a vector function, sixth order."""
     parts = [w * function(o * step) for o, w in zip(_NODES, _FIRST, strict=True)]
-    return np.sum(parts, axis=0) / step
+    found: Array = np.sum(parts, axis=0) / step
+    return found

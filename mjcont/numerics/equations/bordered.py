@@ -20,8 +20,10 @@ _AS_LARGE = 0.99
 def largest_in_rows(matrix: Any) -> Array:
     """Return the largest absolute value in each row, (m,)."""
     if isinstance(matrix, np.ndarray):
-        return np.abs(matrix).max(axis=1)
-    return abs(matrix).max(axis=1).toarray().ravel()
+        found: Array = np.abs(matrix).max(axis=1)
+    else:
+        found = abs(matrix).max(axis=1).toarray().ravel()
+    return found
 
 
 def row_scale(matrix: Any, guard: float = 1e-8) -> Array:
@@ -59,14 +61,15 @@ class Factored:
             negative = np.count_nonzero(self._lu.U.diagonal() < 0)
             return _parity(self._lu.perm_r) * _parity(self._lu.perm_c) * (1.0 - 2.0 * (negative % 2))
         swaps = sum(i != p for i, p in enumerate(self._pivots.tolist()))
-        return 1.0 - 2.0 * ((swaps + np.count_nonzero(self._lu.diagonal() < 0.0)) % 2)
+        return 1.0 - 2.0 * (int(swaps + np.count_nonzero(self._lu.diagonal() < 0.0)) % 2)
 
     def solve(self, rhs: Array) -> Array:
         """Return the solution of A z = rhs."""
         scaled = self._rows * rhs if rhs.ndim == 1 else self._rows[:, None] * rhs
         if self._sparse:
             return self._solve_sparse(scaled)
-        return lapack.dgetrs(self._lu, self._pivots, scaled)[0]
+        found: Array = lapack.dgetrs(self._lu, self._pivots, scaled)[0]
+        return found
 
     def last_column(self) -> Array:
         """Return the last column of the inverse, up to a positive factor: z with A z = e, e the last unit vector."""
@@ -78,7 +81,8 @@ class Factored:
         """Return the solution of A^T z = rhs."""
         if self._sparse:
             return self._rows * self._solve_sparse(rhs, trans="T")
-        return self._rows * lapack.dgetrs(self._lu, self._pivots, rhs, trans=1)[0]
+        found: Array = self._rows * lapack.dgetrs(self._lu, self._pivots, rhs, trans=1)[0]
+        return found
 
     def _solve_sparse(self, rhs: Array, trans: str = "N") -> Array:
         """Return the solution with the sparse factors; NaN where there are none."""

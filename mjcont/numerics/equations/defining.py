@@ -26,18 +26,17 @@ from mjcont.numerics.equations.algebra import singular
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, row_scale
 from mjcont.numerics.equations.differences import bilinear_gradient, directional, second_form
 from mjcont.numerics.equations.problem import Array
-from mjcont.numerics.equations.system import ROW_GUARD, Free, Local, System, equation_scale
+from mjcont.numerics.equations.system import ROW_GUARD, Condition, Free, Local, System, equation_scale
 
 _SLOW_TIME = 0.1
 # rates below this, in 1/s, count as it: their squares are numbers still
 _SLOWEST = 1e-150
+_UNFOLDED = 1e-6
 _GENERIC = np.array([0.8, 0.6])
 
 
-class Fold:
+class Fold(Condition):
     """J is singular: g = 0 with [J b; c' 0] [v; g] = [0; 1]."""
-
-    count, aux, unfolds = 1, (), False
 
     def __init__(self, local: Local) -> None:
         self.rows = equation_scale(local)
@@ -46,7 +45,9 @@ class Fold:
         self._cache: tuple[Local, Array, Array, float] | None = None
 
     def _scaled(self, local: Local) -> Array:
-        return sparse.diags(self.rows) @ local.jac if sparse.issparse(local.jac) else self.rows[:, None] * local.jac
+        dense = not sparse.issparse(local.jac)
+        found: Array = self.rows[:, None] * local.jac if dense else sparse.diags(self.rows) @ local.jac
+        return found
 
     def vectors(self, local: Local) -> tuple[Array, Array, float]:
         """Return (v, w, g) in equilibrated scaled unknowns."""
@@ -99,13 +100,13 @@ def parameter_slope(function: Callable[[Local], float], local: Local, name: str)
     return total / h
 
 
-class BranchPoint:
+class BranchPoint(Condition):
     """[J f_p] has rank n - 1, with the equilibrium equations unfolded by a: f + a d = 0.
 
     Without symmetry no curve of branch points in two parameters exists; a then leaves zero, which callers check.
     """
 
-    count, aux, unfolds = 2, (0.0,), True
+    count, aux = 2, (0.0,)
 
     def __init__(self, local: Local, parameter: Free) -> None:
         self.parameter = parameter
@@ -151,14 +152,18 @@ class BranchPoint:
         right, left, _ = self._solve(local)
         self.c, self.b = np.linalg.qr(right)[0].T.copy(), left / np.linalg.norm(left)
 
+    def exists(self, aux: Array) -> bool:
+        """Whether it is not unfolded."""
+        return not abs(aux[0]) > _UNFOLDED
 
-class Hopf:
+
+class Hopf(Condition):
     """P(s) is singular over R[s]/(s^2 + k): a pair of eigenvalues with sum zero and product k = omega^2.
 
     The auxiliary unknown is asinh(k / rate^2): smooth through k = 0, and logarithmic where k grows by decades.
     """
 
-    count, unfolds = 2, False
+    count = 2
 
     def __init__(self, local: Local, square: float) -> None:
         self.rate = max(float(np.sqrt(abs(square))), _SLOWEST) if square else 1.0
@@ -206,7 +211,8 @@ class Hopf:
     def _bordered(self, local: Local, k: float) -> Array:
         columns = np.column_stack([np.append(self.b0, self.b1), np.append(-k * self.b1, self.b0)])
         rows = np.array([np.append(self.c0, -k * self.c1), np.append(self.c1, self.c0)])
-        return border(self._block(local, k), columns, rows)
+        found: Array = border(self._block(local, k), columns, rows)
+        return found
 
     def value(self, local: Local, aux: Array) -> Array:
         """Return (g0, g1)."""
@@ -225,6 +231,10 @@ class Hopf:
         """Take the present null vectors as borders."""
         self._prepare(local, self.square(aux))
 
+    def exists(self, aux: Array) -> bool:
+        """Whether it is no neutral saddle."""
+        return self.square(aux) > 0.0
+
 
 def dense_pencil(local: Local) -> tuple[Array, Array, Array]:
     """Return (M, C, K) as dense arrays, with zeros and the identity for a first-order system."""
@@ -235,10 +245,8 @@ def dense_pencil(local: Local) -> tuple[Array, Array, Array]:
     return mass, damping, stiffness
 
 
-class FoldCoefficient:
+class FoldCoefficient(Condition):
     """Cusp: w . B(v, v) / 2 = 0 for the null vectors of a `Fold` of the same system."""
-
-    count, aux, unfolds = 1, (), False
 
     def __init__(self, fold: Fold, local: Local) -> None:
         self.fold = fold
@@ -263,14 +271,9 @@ class FoldCoefficient:
         gradient[:, : system.n] += off[:, None] * v / (v @ v)
         return gradient
 
-    def update(self, local: Local, aux: Array) -> None:
-        """Nothing of its own to renew."""
 
-
-class DoubleZero:
+class DoubleZero(Condition):
     """Bogdanov-Takens: w . C v = 0 on a fold (C = I for a first-order system)."""
-
-    count, aux, unfolds = 1, (), False
 
     def __init__(self, fold: Fold, local: Local) -> None:
         self.fold = fold
@@ -283,14 +286,8 @@ class DoubleZero:
         v, w = self.fold.physical(local)
         return np.array([w @ dense_pencil(local)[1] @ v]) / self.weight
 
-    def update(self, local: Local, aux: Array) -> None:
-        """Nothing of its own to renew."""
-
-
-class Transversality:
+class Transversality(Condition):
     """w . f_p = 0 on a fold locus, p its first parameter: the locus turns in the second without a cusp."""
-
-    count, aux, unfolds = 1, (), False
 
     def __init__(self, fold: Fold, local: Local) -> None:
         self.fold = fold
@@ -301,6 +298,3 @@ class Transversality:
         """Return w . f_p."""
         _, w = self.fold.physical(local)
         return np.array([w @ local.par[:, 0]]) / self.weight
-
-    def update(self, local: Local, aux: Array) -> None:
-        """Nothing of its own to renew."""

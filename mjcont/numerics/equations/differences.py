@@ -6,22 +6,12 @@ The error of a first derivative is noise/step + step^order. With stiff bushes th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 
-from mjcont.numerics.equations.problem import Array, Problem, Values
-
-
-@dataclass(frozen=True, slots=True)
-class Stencil:
-    """A first derivative: sum(weights * f(x + offsets * step)) / step."""
-
-    offsets: tuple[float, ...]
-    weights: tuple[float, ...]
-    step: float
-
+from mjcont.numerics.equations.problem import Array, Equations, Stencil, Values
 
 SECOND_ORDER = Stencil((1.0, -1.0), (0.5, -0.5), 2e-6)
 FOURTH_ORDER = Stencil((1.0, -1.0, 2.0, -2.0), (2 / 3, -2 / 3, -1 / 12, 1 / 12), 1e-4)
@@ -97,7 +87,7 @@ def length_of(v: Array, scale: Array) -> float:
     return size
 
 
-def directional(problem: Problem, x: Array, values: Values, v: Array, order: int, step: float = 1e-2) -> Array:
+def directional(problem: Equations, x: Array, values: Values, v: Array, order: int, step: float = 1e-2) -> Array:
     """Return the `order`-th derivative (1, 2 or 3) of f along v at x, sixth order, (n,).
 
     The step is `step` of the coordinates' scale for the largest component of v.
@@ -105,14 +95,14 @@ def directional(problem: Problem, x: Array, values: Values, v: Array, order: int
     return combine(lambda rows: problem.residuals(x, values, rows), v, order, step / length_of(v, problem.state_scale))
 
 
-def combine(f, v: Array, order: int, h: float) -> Array:  # type: ignore[no-untyped-def]
+def combine(f: Callable[[Array], Array], v: Array, order: int, h: float) -> Array:
     """Return the `order`-th derivative of t -> f(t v) at 0 from a batched f."""
     nodes, weights = {1: (NODES, FIRST), 2: (NODES, SECOND), 3: (_NODES9, _THIRD)}[order]
     rows = f((nodes * h)[:, None] * v)
     return weights @ rows / np.float64(h) ** order  # a power of Python's own raises where it overflows
 
 
-def second_form(problem: Problem, x: Array, values: Values, u: Array, v: Array, step: float = 1e-2) -> Array:
+def second_form(problem: Equations, x: Array, values: Values, u: Array, v: Array, step: float = 1e-2) -> Array:
     """Return B(u, v), the second derivative of f in two directions, by polarization, (n,)."""
     if np.array_equal(u, v):
         return directional(problem, x, values, u, 2, step)
@@ -124,7 +114,7 @@ def second_form(problem: Problem, x: Array, values: Values, u: Array, v: Array, 
 
 
 def bilinear_gradient(
-    problem: Problem, x: Array, values: Values, w: Array, v: Array, step: float = 3e-4
+    problem: Equations, x: Array, values: Values, w: Array, v: Array, step: float = 3e-4
 ) -> Array:
     """Return the gradient in scaled x of w . (df/dx) v, (n,): 4 n + 7 evaluations.
 
@@ -140,4 +130,5 @@ def bilinear_gradient(
     gradient = (pp - pm - mp + mm) / (4.0 * step * (step / length))
     u = v / scale
     exact = float(w @ directional(problem, x, values, v, 2))
-    return gradient + (exact - gradient @ u) / (u @ u) * u
+    found: Array = gradient + (exact - gradient @ u) / (u @ u) * u
+    return found

@@ -12,7 +12,8 @@ from scipy import sparse
 from mjcont.numerics.equations.algebra import least_squares
 from mjcont.numerics.equations.algebra import solve as solve_dense
 from mjcont.numerics.equations.bordered import Factored, border
-from mjcont.numerics.equations.problem import Array, Problem, Values
+from mjcont.numerics.equations.problem import Array, Equations, Values
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 
@@ -23,6 +24,8 @@ _DIVERGING = 2.0
 _NOISE = 1e-6
 LARGEST_ERROR = 1e-7
 _LARGEST_STEP = 2.0
+_DIVERGED = Refused(Why.DIVERGED, "the corrector diverged")
+_NEWTON_DIVERGED = Refused(Why.DIVERGED, "Newton's method diverged")
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +43,7 @@ class Corrected:
     rate : ratio of the last Newton step to the step before it.
     step : size of the last step: the tolerance reached.
     error : scaled residual.
-    failure : empty, or a sentence.
+    failure : why it is no point of the curve, None where it is one.
     """
 
     x: Array
@@ -51,7 +54,7 @@ class Corrected:
     contraction: float
     step: float
     error: float
-    failure: str = ""
+    failure: Refused | None = None
     jac: Any = None
     rate: float = np.inf
 
@@ -100,9 +103,9 @@ def _broyden(step: Array, steps: list[Array]) -> Array:
     return step
 
 
-def undefined(system: System) -> str:
-    """Say why f has no value; a problem that knows more says so by an attribute `failure`."""
-    return getattr(system.problem, "failure", "") or "f is not finite there"
+def undefined(system: System) -> Refused:
+    """Say why f has no value, by the problem's own `failure` where it knows more."""
+    return Refused(Why.UNDEFINED, system.problem.failure or "f is not finite there")
 
 
 def correct(
@@ -120,7 +123,8 @@ def correct(
     derivatives at the solution takes the point to the noise floor. `expected` is the contraction of the first step
     with `lu`, where the last points tell it: one step may then be enough.
     """
-    size, ratio, failure = np.inf, 0.0, "the corrector did not converge"
+    size, ratio = np.inf, 0.0
+    failure: Refused | None = Refused(Why.UNSETTLED, "the corrector did not converge")
     tol = settings.tol
     local, iterations = system.local(x, y), 0
     steps: list[Array] = []
@@ -131,25 +135,25 @@ def correct(
         step = _broyden(_newton_step(system, local, y, lu, row)[0], steps)
         last, size = size, length(step)
         if not size < _LARGEST_STEP:
-            failure = "the corrector diverged" if np.isfinite(size) else undefined(system)
+            failure = _DIVERGED if np.isfinite(size) else undefined(system)
             break
         ratio = size / last if np.isfinite(last) else 0.0
         x, y = system.move(x, y, step)
         local = system.local(x, y)
         rate, most = (expected, _FIRST) if iterations == 1 else (ratio, _LATER)
         if size <= tol or (rate > 0.0 and size <= most * tol and size * rate <= 0.1 * tol):
-            failure = ""
+            failure = None
             break
         if ratio > _SLOW and size <= _NOISE and iterations > 2:  # as close as the noise of f allows
-            failure = ""
+            failure = None
             break
         if ratio > _DIVERGING:
-            failure = "the corrector diverged"
+            failure = _DIVERGED
             break
         steps.append(step)
         if ratio > _SLOW and len(steps) > 2:
             lu = None
-    if failure:
+    if failure is not None:
         return Corrected(x, y, local, lu, iterations, ratio, size, np.inf, failure)
     for _ in range(_POLISH):  # derivatives are to be those of the point itself
         jac = system.jacobian(local, y)
@@ -162,7 +166,7 @@ def correct(
         local = system.local(x, y)
     error = system.error(local, x, y)
     if not error < LARGEST_ERROR:
-        failure = "the corrector stalled away from the curve"
+        failure = Refused(Why.STALLED, "the corrector stalled away from the curve")
     return Corrected(x, y, local, factored, iterations, ratio, size, error, failure, jac, size / max(last, 1e-300))
 
 
@@ -183,7 +187,7 @@ def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int =
         step, _ = _newton_step(system, local, y, factored, None)
         last, size = size, length(step)
         if not np.isfinite(size) or (size > _LARGEST_STEP and iteration > 2):
-            return Corrected(x, y, local, factored, iteration, np.inf, size, np.inf, "Newton's method diverged")
+            return Corrected(x, y, local, factored, iteration, np.inf, size, np.inf, _NEWTON_DIVERGED)
         step *= min(1.0, reach / size) if size > 0 else 1.0
         ratio = size / last if np.isfinite(last) else 0.0
         x, y = system.move(x, y, step)
@@ -196,24 +200,24 @@ def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int =
             break
     x, y = best_at
     local = system.local(x, y)
-    failure = "" if best < 1e-6 else "Newton's method did not converge"
-    if not failure and np.linalg.norm(system.difference(x, y, x0, y0)) > 2.0 * reach:
-        failure = "Newton's method left the neighbourhood"
+    failure = None if best < 1e-6 else Refused(Why.UNSETTLED, "Newton's method did not converge")
+    if failure is None and np.linalg.norm(system.difference(x, y, x0, y0)) > 2.0 * reach:
+        failure = Refused(Why.WANDERED, "Newton's method left the neighbourhood")
     return Corrected(x, y, local, factored, iteration, ratio, best, system.error(near, x, y), failure)
 
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """An equilibrium reached from a guess: how, how far away, and the residual there."""
+    """An equilibrium reached from a guess: how, how far away, the residual there, and why it is none."""
 
     x: Array
     method: str
     distance: float
     error: float
-    failure: str = ""
+    failure: Refused | None = None
 
 
-def find_start(problem: Problem, x0: Array, values: Values) -> Start:
+def find_start(problem: Equations, x0: Array, values: Values) -> Start:
     """Return the equilibrium that `x0` belongs to: by Newton if it is near, else the one it flows to.
 
     Far from an equilibrium pseudo-transient steps (M/dt + K) dx = f follow the damped motion with growing dt.
@@ -226,14 +230,14 @@ def find_start(problem: Problem, x0: Array, values: Values) -> Start:
         if distance < 0.1:
             return Start(near.x, "newton", distance, near.error)
     x, failure = _pseudo_transient(system, x0)
-    if failure:
+    if failure is not None:
         return Start(x, "pseudo-transient", np.inf, np.inf, failure)
     final = solve(system, x, no_y, most=20, reach=0.2)
     distance = float(np.linalg.norm(system.difference(final.x, no_y, x0, no_y)))
     return Start(final.x, "pseudo-transient", distance, final.error, final.failure)
 
 
-def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array, str]:
+def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array, Refused | None]:
     """Follow M x' = f by linearly implicit steps whose length grows while the motion is smooth."""
     problem, no_y = system.problem, np.zeros(0)
     scale = problem.state_scale
@@ -246,17 +250,21 @@ def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array,
         if not np.isfinite(size) or size > 0.2:
             dt *= 0.25
             if dt < 1e-14:
-                return x, "the motion from the start could not be followed: steps became too short"
+                sentence = "the motion from the start could not be followed: steps became too short"
+                return x, Refused(Why.DIVERGED, sentence)
             continue
         x = problem.retract(x, dx)
         local = system.local(x, no_y)
         newton = _solve(-local.raw_jac, local.f)
         if size < 1e-3 and np.max(np.abs(newton) / scale) < 1e-9:
-            return x, ""
+            return x, None
         dt *= 2.0 if size < 0.1 else 1.0
     if np.abs(local.f).max() <= 1e-9 * abs(local.raw_jac).max() * np.max(scale):
-        return x, "the motion from the start came to rest, but equilibria are not isolated there: K is singular"
-    return x, f"the motion from the start had not come to rest after {most} steps: it may drift or have no equilibrium"
+        sentence = "the motion from the start came to rest, but equilibria are not isolated there: K is singular"
+    else:
+        sentence = f"the motion from the start had not come to rest after {most} steps"
+        sentence += ": it may drift or have no equilibrium"
+    return x, Refused(Why.UNSETTLED, sentence)
 
 
 def _solve(matrix: Any, rhs: Array) -> Array:

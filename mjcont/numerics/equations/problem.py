@@ -1,23 +1,27 @@
-"""The protocol that a Mechanism and a VectorField both satisfy, and what they return.
+"""The contract of a problem: what numerics ask of equations f(x, p) = 0, and what they are given.
 
-An equilibrium problem is f(x, p) = 0, with x on a manifold of tangent dimension n and p named scalars. Its
-motion is governed near an equilibrium by the quadratic pencil
+The state x lies on a manifold of tangent dimension n, and p are named scalars. Motion near an equilibrium is governed
+by the quadratic pencil
 
     P(s) = s^2 M + s C + K,   K = -df/dx,
 
-where a first-order system x' = f has M = 0 and C = I. Everything in `mjcont.numerics` is written for this
-protocol; it never imports MuJoCo.
+where a first-order system x' = f has M = 0 and C = I. Everything in `mjcont.numerics` is written for `Equations`, and
+nothing there asks a problem for more.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, Self, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-Array = np.ndarray
+Array: TypeAlias = NDArray[Any]
+# a matrix as LAPACK or SuperLU takes it: (n, n) array or scipy.sparse, which has no types
+Matrix: TypeAlias = Any
 Values = Mapping[str, float]
 Range = tuple[float, float]
 Ranges = Sequence[Range | None]
@@ -35,7 +39,7 @@ class Linearization:
     """
 
     f: Array
-    jac: Any
+    jac: Matrix
     par: Array
 
 
@@ -45,47 +49,91 @@ class Pencil:
 
     mass: Array | None
     damping: Array | None
-    stiffness: Any
+    stiffness: Matrix
 
 
-class Problem(Protocol):
-    """What the numerics need to know of a problem.
+@dataclass(frozen=True, slots=True)
+class Stencil:
+    """A first derivative: sum(weights * f(x + offsets * step)) / step."""
+
+    offsets: tuple[float, ...]
+    weights: tuple[float, ...]
+    step: float
+
+
+class Varied(Protocol):
+    """What numerics know of a parameter: where it may be moved, and whether f is affine in it."""
+
+    @property
+    def bounds(self) -> Range:
+        """Where it makes sense."""
+        ...
+
+    @property
+    def hard_bounds(self) -> Range:
+        """Outside this range f is not defined."""
+        ...
+
+    @property
+    def affine(self) -> bool:
+        """Whether f is affine in it."""
+        ...
+
+
+class Equations(ABC):
+    """Base class for problems f(x, p) = 0.
+
+    To implement one, follow these steps:
+
+    1. Set the attributes below in the constructor. `n` and `state_scale` never change afterwards.
+    2. Implement the abstract methods. States are arrays (nq,), where nq may exceed n on a curved manifold; steps are
+       tangent vectors (n,) in physical units. No argument is written to, and what is returned is the caller's own.
+    3. Where f has no value return NaN, and say why in `failure` until the next evaluation; never raise for it.
+    4. Count every evaluation of f in `evaluations`, each row of a batch as one.
+    5. On a curved manifold override `retract`, `difference`, `retract_each` and `difference_each`, together.
+    6. Override capabilities only where they hold; each default says what the numerics do without it:
+
+       - `passive` (and `pencils`): stability by the inertia of K, eigenvalues when they are read;
+       - `side_by_side`, `linearize_along`: long steps with points inside, rows between points;
+       - `nonsmooth` and `active`: corners are found and crossed;
+       - `periods`: curves that close full turns apart end there;
+       - `admissible`: predictions leave out motions that the problem holds.
 
     Attributes
     ----------
     n : tangent dimension of the state.
     second_order : whether the pencil has a mass matrix.
     state_scale : (n,) typical size of each tangent coordinate, for arclength and difference steps.
-    evaluations : number of evaluations of f so far (every row of a batch counts as one).
     """
 
     n: int
     second_order: bool
     state_scale: Array
-    evaluations: int
 
+    # -- what must be there ----------------------------------------------------------------------------------
+
+    @property
+    @abstractmethod
+    def evaluations(self) -> int:
+        """Number of evaluations of f so far (every row of a batch counts as one)."""
+
+    @abstractmethod
+    def parameter(self, name: str) -> Varied:
+        """Return a parameter by its name."""
+
+    @abstractmethod
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the defaults for the others."""
-        ...
 
+    @abstractmethod
     def residual(self, x: Array, values: Values) -> Array:
         """Return f, (n,)."""
-        ...
 
+    @abstractmethod
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x moved by each row of `steps` (m, n), shape (m, n)."""
-        ...
 
-    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return f at states (m, nq), a parameter having a value of its own in each (m,), shape (m, n)."""
-        ...
-
-    def linearize_along(
-        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
-    ) -> tuple[Array, Array, Array] | None:
-        """Return f (m, n), df/dx (m, n, n) and df/dp (m, n) at such states; None where side by side gains nothing."""
-        ...
-
+    @abstractmethod
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
     ) -> Linearization:
@@ -94,33 +142,113 @@ class Problem(Protocol):
         `ranges` are those in which the parameters `wrt` move: differences do not leave them, and their widths tell
         the steps where a value is near zero.
         """
-        ...
 
-    def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Any, float]:
-        """Return the difference rule (see `differences.Stencil`) and step for derivatives in a parameter."""
-        ...
+    @abstractmethod
+    def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
+        """Return the difference rule and step for derivatives in a parameter."""
 
-    def pencil(self, x: Array, values: Values, jac: Any) -> Pencil:
+    @abstractmethod
+    def pencil(self, x: Array, values: Values, jac: Matrix) -> Pencil:
         """Return the matrices whose eigenvalues tell stability; `jac` is df/dx there."""
-        ...
 
+    @abstractmethod
     def first_order(self, x: Array, values: Values, steps: Array) -> Array:
         """Return the right-hand side of the first-order form at steps (m, N) of its state, shape (m, N)."""
-        ...
+
+    # -- the manifold: flat unless it says otherwise -----------------------------------------------------------
 
     def retract(self, x: Array, step: Array) -> Array:
         """Return x moved by a tangent step (n,)."""
-        ...
+        return x + step
 
     def retract_each(self, states: Array, steps: Array) -> Array:
         """Return states (m, nq), or one (nq,), moved by the rows of tangent steps (m, n)."""
-        ...
-
-    def difference_each(self, ends: Array, starts: Array) -> Array:
-        """Return the tangent steps (m, n) that take states (m, nq), or one (nq,), to others."""
-        ...
+        return states + steps
 
     def difference(self, x1: Array, x0: Array) -> Array:
         """Return the tangent step (n,) that takes x0 to x1."""
-        ...
+        return x1 - x0
 
+    def difference_each(self, ends: Array, starts: Array) -> Array:
+        """Return the tangent steps (m, n) that take states (m, nq), or one (nq,), to others."""
+        return ends - starts
+
+    # -- capabilities, with what holds without them --------------------------------------------------------------
+
+    @property
+    def passive(self) -> bool:
+        """Whether damping is symmetric and semidefinite in every state, so that the inertia of K tells stability."""
+        return False
+
+    @property
+    def nonsmooth(self) -> bool:
+        """Whether f is smooth in pieces only."""
+        return False
+
+    @property
+    def failure(self) -> str:
+        """Why f had no value where it was evaluated last, a clause; empty where nothing is known."""
+        return ""
+
+    def active(self, x: Array, values: Values) -> frozenset[str]:
+        """Return the names of the limits and contacts that carry load: one set is one smooth piece of f."""
+        del x, values
+        return frozenset()
+
+    def admissible(self, x: Array, step: Array) -> Array:
+        """Return a tangent step without motions that the problem holds."""
+        del x
+        return step
+
+    def periods(self, x: Array, values: Values) -> Array:
+        """Return a full turn for each coordinate in which one changes nothing, infinity for the others, (n,)."""
+        del x, values
+        return np.full(self.n, np.inf)
+
+    def pencils(self, states: Array, values: Sequence[Values], jacs: Sequence[Matrix]) -> list[Pencil]:
+        """Return `pencil` at many equilibria of a passive problem."""
+        return [self.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]
+
+    def side_by_side(self, name: str) -> bool:
+        """Whether many states that differ in a parameter cost hardly more than one."""
+        del name
+        return False
+
+    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return f at states (m, nq), a parameter having a value of its own in each (m,), shape (m, n)."""
+        found = [self.residual(x, {**values, name: v}) for x, v in zip(states, column.tolist(), strict=True)]
+        return np.array(found).reshape(len(states), self.n)
+
+    def linearize_along(
+        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
+    ) -> tuple[Array, Array, Array] | None:
+        """Return f (m, n), df/dx (m, n, n) and df/dp (m, n) at such states; None where side by side gains nothing."""
+        del states, values, name, column, bounds
+        return None
+
+    @property
+    def own_jacobian(self) -> bool:
+        """Whether df/dx is computed by the problem itself, not by differences of f."""
+        return False
+
+    # -- motions that nothing opposes ----------------------------------------------------------------------------
+
+    @property
+    def held(self) -> tuple[str, ...]:
+        """The rigid-body modes that are held."""
+        return ()
+
+    def rigid_modes(self, x: Array, values: Values, among: Sequence[str] | None = None) -> tuple[str, ...]:
+        """Return the names of the rigid-body motions that no force opposes near a state, of all or `among` some."""
+        del x, values, among
+        return ()
+
+    def rigid_directions(self, x: Array) -> dict[str, Array]:
+        """Return the tangent vectors (n,) along the held rigid-body modes, by name."""
+        del x
+        return {}
+
+    def holding(self, modes: Sequence[str]) -> Self:
+        """Return this problem with rigid-body modes held by a stiffness and damping of their own."""
+        del modes
+        return self

@@ -9,15 +9,16 @@ solutions form a curve; with as many, a special point. Unknowns are scaled throu
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.equations.bordered import border, largest_in_rows
-from mjcont.numerics.equations.problem import Array, Pencil, Problem, Ranges, Values
+from mjcont.numerics.equations.problem import Array, Equations, Linearization, Pencil, Ranges, Values
 
 _LOG_SPAN = 1e3
 _GRADIENT_STEP = 1e-3
@@ -86,12 +87,12 @@ class Local:
     __slots__ = ("_jac", "_lin", "_pencil", "_residual", "accurate", "problem", "ranges", "values", "wrt", "x")
 
     def __init__(
-        self, problem: Problem, x: Array, values: Values, wrt: Sequence[str], accurate: bool, ranges: Ranges = ()
+        self, problem: Equations, x: Array, values: Values, wrt: Sequence[str], accurate: bool, ranges: Ranges = ()
     ) -> None:
         self.problem, self.x, self.values, self.wrt, self.accurate = problem, x, values, wrt, accurate
         self.ranges = ranges
         self._jac: Any = None
-        self._lin: Any = None
+        self._lin: Linearization | None = None
         self._pencil: Pencil | None = None
         self._residual: Array | None = None
 
@@ -108,7 +109,7 @@ class Local:
         """Take the residual, (n,), computed elsewhere."""
         self._residual = residual
 
-    def _linearize(self) -> Any:
+    def _linearize(self) -> Linearization:
         if self._lin is None:
             self._lin = self.problem.linearize(
                 self.x, self.values, self.wrt, accurate=self.accurate, ranges=self.ranges
@@ -156,31 +157,42 @@ def equation_sizes(jacs: Array) -> Array:
     """Return the size of each equation, guarded as in `equation_scale`, from matrices (m, n, n + 1), shape (m, n)."""
     n = jacs.shape[1]
     largest = np.abs(jacs[:, :, :n]).max(axis=2)
-    top = np.maximum(largest.max(axis=1), ROW_GUARD * np.abs(jacs[:, :, n]).max(axis=1))
-    return np.maximum(largest, ROW_GUARD * top[:, None])
+    top: Array = np.maximum(largest.max(axis=1), ROW_GUARD * np.abs(jacs[:, :, n]).max(axis=1))
+    found: Array = np.maximum(largest, ROW_GUARD * top[:, None])
+    return found
 
 
-class Condition(Protocol):
+class Condition(ABC):
     """Equations beside f = 0.
 
     Attributes
     ----------
     count : number of equations.
     aux : starting values of the auxiliary unknowns it adds to y.
-    unfolds : whether its first auxiliary unknown adds `direction` to f (see `BranchPoint`).
+    direction : (n,) what its first auxiliary unknown adds to f, None where it adds nothing (see `BranchPoint`).
     """
 
-    count: int
-    aux: tuple[float, ...]
-    unfolds: bool
+    count: int = 1
+    aux: tuple[float, ...] = ()
+    direction: Array | None = None
 
+    @abstractmethod
     def value(self, local: Local, aux: Array) -> Array:
         """Return the equations' values, (count,)."""
-        ...
+
+    def gradient(self, local: Local, system: System, y: Array) -> Array | None:
+        """Return the derivatives over (x, free parameters), (count, n + number free); None: by differences."""
+        del local, system, y
+        return None
 
     def update(self, local: Local, aux: Array) -> None:
         """Renew the borders at a solution, so that the system stays regular along a curve."""
-        ...
+        del local, aux
+
+    def exists(self, aux: Array) -> bool:
+        """Whether a solution with these auxiliary unknowns is a point of its kind."""
+        del aux
+        return True
 
 
 class System:
@@ -188,7 +200,7 @@ class System:
 
     Parameters
     ----------
-    problem : Problem
+    problem : Equations
     base : Values
         A value for every parameter; the free ones are replaced.
     free : sequence of Free
@@ -199,7 +211,7 @@ class System:
 
     def __init__(
         self,
-        problem: Problem,
+        problem: Equations,
         base: Values,
         free: Sequence[Free],
         conditions: Sequence[Condition] = (),
@@ -267,8 +279,8 @@ class System:
             return local.f
         parts = [local.f]
         for c, aux in zip(self.conditions, self._aux(y), strict=True):
-            if c.unfolds:
-                parts[0] = parts[0] + aux[0] * c.direction  # type: ignore[attr-defined]
+            if c.direction is not None:
+                parts[0] = parts[0] + aux[0] * c.direction
             parts.append(c.value(local, aux))
         return np.concatenate(parts)
 
@@ -284,19 +296,19 @@ class System:
         columns[:, : len(self.free)] = local.par * np.array(slopes)
         at = len(self.free)
         for c in self.conditions:
-            if c.unfolds:
-                columns[:, at] = c.direction  # type: ignore[attr-defined]
+            if c.direction is not None:
+                columns[:, at] = c.direction
             at += len(c.aux)
         rows = self._condition_rows(local, y)
         return border(local.jac, columns, rows[:, : self.n], rows[:, self.n :])
 
     def _condition_rows(self, local: Local, y: Array) -> Array:
         rows = np.zeros((self.equations - self.n, self.n + self.k))
-        at, rest = 0, []
+        at, rest = 0, list[tuple[int, Condition]]()
         for c in self.conditions:
-            gradient: Callable[..., Array] | None = getattr(c, "gradient", None)
+            gradient = c.gradient(local, self, y)
             if gradient is not None:
-                rows[at : at + c.count, : self.n + len(self.free)] = gradient(local, self, y)
+                rows[at : at + c.count, : self.n + len(self.free)] = gradient
             else:
                 rest.append((at, c))
             at += c.count
@@ -307,7 +319,7 @@ class System:
                 done += c.count
         return rows
 
-    def gradients(self, conditions: Sequence[Any], local: Local, y: Array) -> Array:
+    def gradients(self, conditions: Sequence[Condition], local: Local, y: Array) -> Array:
         """Return the gradients of conditions by centred differences, (count, n + k): good enough for most of Newton."""
         gradient = np.empty((sum(c.count for c in conditions), self.n + self.k))
         for j in range(self.n + self.k):
@@ -319,7 +331,7 @@ class System:
             gradient[:, j] = (after - before) / apart
         return gradient
 
-    def slope(self, condition: Any, local: Local, y: Array, direction: Array) -> Array:
+    def slope(self, condition: Condition, local: Local, y: Array, direction: Array) -> Array:
         """Return the derivative of a condition along a scaled direction (n + k,), fourth order, (count,)."""
         h = _SLOPE_STEP / float(np.abs(direction).max())
         near, far = (
@@ -329,7 +341,9 @@ class System:
         )
         return np.asarray((8.0 * near - far) / (12.0 * h))
 
-    def _conditions_at(self, conditions: Sequence[Any], local: Local, y: Array, step: Array) -> tuple[Array, Array]:
+    def _conditions_at(
+        self, conditions: Sequence[Condition], local: Local, y: Array, step: Array
+    ) -> tuple[Array, Array]:
         """Return the conditions at a scaled step, (count,), and the y there, which stays within its bounds."""
         x, moved = self.move(local.x, y, step)
         at, parts = self.local(x, moved), self._aux(moved)
@@ -359,11 +373,8 @@ class System:
 
     def admissible(self, x: Array, step: Array) -> Array:
         """Return a scaled step without motions that the problem holds (see `rigid`)."""
-        problem: Any = self.problem
-        if not hasattr(problem, "admissible"):
-            return step
-        scale = problem.state_scale
-        return np.concatenate([problem.admissible(x, step[: self.n] * scale) / scale, step[self.n :]])
+        scale = self.problem.state_scale
+        return np.concatenate([self.problem.admissible(x, step[: self.n] * scale) / scale, step[self.n :]])
 
     def difference(self, x1: Array, y1: Array, x0: Array, y0: Array) -> Array:
         """Return the scaled step from (x0, y0) to (x1, y1), (n + k,)."""
@@ -390,6 +401,6 @@ class System:
         """
         f = self.problem.residual(x, self.values(y))
         for c, aux in zip(self.conditions, self._aux(y), strict=True):
-            if c.unfolds:
-                f = f + aux[0] * c.direction  # type: ignore[attr-defined]
+            if c.direction is not None:
+                f = f + aux[0] * c.direction
         return float(np.max(np.abs(f) * equation_scale(local)))

@@ -16,14 +16,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from mjcont.numerics.equations.algebra import singular, solve
-from mjcont.numerics.equations.problem import Array, Problem, Values
+from mjcont.numerics.equations.problem import Array, Equations, Values
 from mjcont.numerics.points.normalform import FirstOrder, eigenvectors
 
 # a coefficient counts as zero below this part of the frequency, for amplitudes of the state's scale
 _VANISHES = 1e-9
 
 
-def zero_hopf_coefficients(problem: Problem, x: Array, values: Values, omega: float) -> tuple[dict[str, float], str]:
+def zero_hopf_coefficients(problem: Equations, x: Array, values: Values, omega: float) -> tuple[dict[str, float], str]:
     """Return omega, s and theta of a zero-Hopf point of frequency omega, and a sentence where they are not defined.
 
     G200 vanishes under mirror symmetry (the zero eigenvalue is a pitchfork's), G011 where the oscillation does not
@@ -50,7 +50,7 @@ def zero_hopf_coefficients(problem: Problem, x: Array, values: Values, omega: fl
 
 
 def double_hopf_coefficients(
-    problem: Problem, x: Array, values: Values, omega1: float, omega2: float
+    problem: Equations, x: Array, values: Values, omega1: float, omega2: float
 ) -> tuple[dict[str, float], str]:
     """Return the frequencies and p11, p22, theta, delta of a double Hopf point, and a sentence where it is degenerate.
 

@@ -8,19 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from mjcont.numerics.equations.newton import correct
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
-from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.events import Found, Located
 from mjcont.numerics.step.arclength import CurvePoint, advance, point_from, tangent_at
+from mjcont.numerics.step.notes import Note
 
 Piece = Callable[[Array, Array], Hashable]
 
+_LOADED = Note[frozenset[str]]()
 NEAR = 1e-4
 _LEAVE = 1e-4
 _SHARP = 1e-8
@@ -39,15 +41,12 @@ _STATES = {
 
 def loaded(system: System, x: Array, y: Array) -> frozenset[str]:
     """Return the names of the limits and contacts that carry load at (x, y)."""
-    problem: Any = system.problem
-    return problem.active(x, system.values(y)) if hasattr(problem, "active") else frozenset()
+    return system.problem.active(x, system.values(y))
 
 
 def loaded_at(system: System, point: CurvePoint) -> frozenset[str]:
     """Return the loaded constraints of a curve point, computed once."""
-    if "loaded" not in point.extra:
-        point.extra["loaded"] = loaded(system, point.x, point.y)
-    return point.extra["loaded"]
+    return _LOADED.of(point, lambda: loaded(system, point.x, point.y))
 
 
 def describe(before: frozenset[str], after: frozenset[str]) -> str:
@@ -73,26 +72,30 @@ class CornerDetector:
     system: System
     settings: Settings
 
-    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+    def value(self, point: CurvePoint) -> frozenset[str]:
+        """Return the names of what carries load."""
+        return loaded_at(self.system, point)
+
+    def crossed(self, old: CurvePoint, new: CurvePoint) -> bool:
         """Whether another set of constraints carries load."""
         return loaded_at(self.system, old) != loaded_at(self.system, new)
 
-    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found:
         """Return the corner, by halving the step along the curve."""
         before, after = loaded_at(self.system, old), loaded_at(self.system, new)
         while new.s - old.s > _SHARP:
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
-            if isinstance(middle, str) or not old.s < middle.s < new.s:
+            if isinstance(middle, Refused) or not old.s < middle.s < new.s:
                 break
             old, new = (middle, new) if loaded_at(self.system, middle) == before else (old, middle)
-        return [Located("CO", new, new.s - old.s, True, {}, describe(before, after))]
+        return Found([Located("CO", new, new.s - old.s, True, {}, describe(before, after))])
 
 
 def cross(system: System, point: CurvePoint, settings: Settings) -> tuple[CurvePoint, Located] | None:
     """Return the first point beyond a corner just ahead of `point`, and the corner; None if there is none."""
     before = loaded_at(system, point)
     crossed = _cross(system, point, settings, lambda x, y: loaded(system, x, y))
-    if crossed is not None or not getattr(system.problem, "nonsmooth", False):
+    if crossed is not None or not system.problem.nonsmooth:
         return crossed
     # no element tells: a contact that passes from a face to an edge keeps its load and its name
     crossed = _cross(system, point, settings, lambda x, y: _turned(system, point, x, y))
@@ -121,7 +124,7 @@ def _cross(system: System, point: CurvePoint, settings: Settings, piece: Piece) 
     sign = sides[0] if len(sides) == 1 else float(np.sign(tangent @ point.tangent)) or 1.0
     guess = system.move(x, y, sign * _LEAVE * tangent)
     c = correct(system, *guess, sign * tangent, None, settings)
-    if c.failure or piece(c.x, c.y) != after:
+    if c.failure is not None or piece(c.x, c.y) != after:
         return None
     new = point_from(c, sign * tangent, point.s + reach + _LEAVE)
     note = describe(loaded_at(system, point), loaded(system, c.x, c.y))

@@ -8,17 +8,20 @@ within its bracket. A sign change with no point behind it (a pole, or another br
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
 
 from mjcont.numerics.equations.newton import Corrected, correct
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
-from mjcont.numerics.equations.system import Local, System
+from mjcont.numerics.equations.system import Condition, Local, System
 from mjcont.numerics.step.arclength import CurvePoint, advance
+from mjcont.numerics.step.notes import Note
 
 _MOST_BISECTIONS = 40
 _OUTSIDE = 1e-6
@@ -48,16 +51,16 @@ class Located:
     note: str = ""
 
 
-class Retry(Exception):
-    """The step between two points must be shortened; the argument is the reason, a clause."""
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What lies between two points of a curve: special points, and neutral saddles, which are none."""
 
-
-class Pole(Exception):
-    """A test function changes sign by growing beyond bounds: there is no zero."""
+    located: Sequence[Located] = ()
+    neutral: Sequence[Located] = ()
 
 
 class Detector(Protocol):
-    """Finds points of one kind between two successive points of a curve.
+    """Finds points of one kind between two successive points of a curve: it reads a value at each, and changes nothing.
 
     Attributes
     ----------
@@ -66,12 +69,19 @@ class Detector(Protocol):
 
     structural: bool
 
-    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
-        """Whether the test function changes between the points."""
+    def value(self, point: CurvePoint) -> Hashable:
+        """Return what is read at a point."""
         ...
 
-    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
-        """Return the points there; `found` are those of earlier detectors on the same step."""
+    def crossed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether what is read says that there is something between the points."""
+        ...
+
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found | Refused:
+        """Return the points there, or why the step is to be shorter.
+
+        `found` are those of earlier detectors on the same step.
+        """
         ...
 
 
@@ -80,19 +90,22 @@ def bisect(
     old: CurvePoint,
     new: CurvePoint,
     changed: Callable[[CurvePoint, CurvePoint], bool],
-    settle: Callable[[CurvePoint, CurvePoint], Located | None],
+    settle: Callable[[CurvePoint, CurvePoint], Located | Refused | None],
     settings: Settings,
 ) -> Located | None:
-    """Return what `settle` finds in a bracket, halving the bracket while it finds nothing; None if it never does."""
+    """Return what `settle` finds in a bracket, halving the bracket while it finds nothing.
+
+    None if it never does, or is sure that there is nothing.
+    """
     for _ in range(_MOST_BISECTIONS):
         result = settle(old, new)
         if result is not None:
-            return result
+            return None if isinstance(result, Refused) else result
         length = new.s - old.s
         if length < 1e-7:
             return None
         middle = advance(system, old, 0.5 * length, settings)
-        if isinstance(middle, str):
+        if isinstance(middle, Refused):
             return None
         if changed(old, middle):
             new = middle
@@ -162,75 +175,72 @@ def point_at(system: System, old: CurvePoint, new: CurvePoint, c: Corrected, s: 
     return CurvePoint(c.x, c.y[: system.k], tangent, old.sign, c.local, new.jac, s, c.error)
 
 
+Solved = tuple[Corrected, System]
+
+
 @dataclass(slots=True)
 class ZeroDetector:
     """Zeros of a scalar function of a curve point: user zeros, and tests on loci without a system of their own.
 
-    `solve` follows a point near a zero to the zero itself; `fraction` tells better than a linear function through the
-    test's values where in a step it lies.
+    `solve` follows a point near a zero to the zero itself and returns it with the system that it solves, from which
+    `finish` has data and a note, or None where it is no such point after all. A test that `counts` changes by whole
+    numbers. `fraction` tells better than a linear function through the test's values where in a step a zero lies.
     """
 
     kind: str
     system: System
     test: Callable[[CurvePoint], float]
-    solve: Callable[[Corrected], Corrected]
-    finish: Callable[[Corrected], tuple[dict[str, Any], str] | None]
+    solve: Callable[[Corrected], Solved]
+    finish: Callable[[Corrected, System], tuple[dict[str, Any], str] | None]
     settings: Settings
-    name: str = ""
-    differs: Callable[[CurvePoint, CurvePoint], bool] | None = None
+    counts: bool = False
     structural: bool = False
     fraction: Callable[[CurvePoint, CurvePoint], float] | None = None
-    _first: float = 0.0
+    _note: Note[float] = field(default_factory=Note, init=False)
 
-    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
-        """Whether the test changes sign, or differs as told."""
-        if self.differs is not None:
-            return self.differs(old, new)
-        a, b = self._value(old), self._value(new)
+    def crossed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether the test changes sign, or counts more or less."""
+        a, b = self.value(old), self.value(new)
+        if self.counts:
+            return a != b
         return a * b < 0 or (a == 0.0) != (b == 0.0)  # a point on a zero belongs to the steps on both sides
 
-    def _value(self, point: CurvePoint) -> float:
-        key = f"test {self.kind} {self.name}"
-        if key not in point.extra:
-            point.extra[key] = self.test(point)
-        return float(point.extra[key])
+    def value(self, point: CurvePoint) -> float:
+        """Return the test's value, computed once."""
+        return self._note.of(point, lambda: self.test(point))
 
-    def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
-        a, b = self._value(old), self._value(new)
-        if self.differs is None and min(abs(a), abs(b)) > _POLE * self._first:
-            raise Pole
+    def _settle(self, old: CurvePoint, new: CurvePoint, largest: float) -> Located | Refused | None:
+        a, b = self.value(old), self.value(new)
+        if not self.counts and min(abs(a), abs(b)) > _POLE * largest:
+            return Refused(Why.POLE, f"the test of {self.kind} grows beyond bounds where it changes sign")
         c = s = None
         if self.fraction is not None and new.s - old.s <= self.settings.ds_max:
-            c = self.solve(guessed(self.system, old, new, self.fraction(old, new)))
-            s = None if c.failure else within(self.system, old, new, c)
+            c, full = self.solve(guessed(self.system, old, new, self.fraction(old, new)))
+            s = None if c.failure is not None else within(self.system, old, new, c)
         if c is None or s is None:
             near = approximate(self.system, old, new, zero_fraction(a, b), self.settings)
-            if near.failure:
+            if near.failure is not None:
                 return None
-            c = self.solve(near)
-            s = None if c.failure else within(self.system, old, new, c)
+            c, full = self.solve(near)
+            s = None if c.failure is not None else within(self.system, old, new, c)
             if s is None:
                 return None
-        done = self.finish(c)
+        done = self.finish(c, full)
         if done is None:
             return None
         data, note = done
         return Located(self.kind, point_at(self.system, old, new, c, s), c.step, True, data, note)
 
-    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found:
         """Return the zero between the points, if there is one; a pole is none."""
-        self._first = max(abs(self._value(old)), abs(self._value(new)))
-        try:
-            result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
-        except Pole:
-            return []
-        return [result] if result is not None else []
+        largest = max(abs(self.value(old)), abs(self.value(new)))
+        settle = partial(self._settle, largest=largest)
+        result = bisect(self.system, old, new, self.crossed, settle, self.settings)
+        return Found() if result is None else Found([result])
 
 
-class ScalarZero:
+class ScalarZero(Condition):
     """The condition monitor(x, p) = 0 on an equilibrium curve."""
-
-    count, aux, unfolds = 1, (), False
 
     def __init__(self, monitor: Callable[[Array, Values], float]) -> None:
         self.monitor = monitor
@@ -238,6 +248,3 @@ class ScalarZero:
     def value(self, local: Local, aux: Array) -> Array:
         """Return the monitor's value."""
         return np.array([self.monitor(local.x, local.values)])
-
-    def update(self, local: Local, aux: Array) -> None:
-        """Nothing to renew."""

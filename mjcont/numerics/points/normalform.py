@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from scipy import sparse
 from mjcont.numerics.equations.algebra import least_squares, singular, solve
 from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.differences import FOURTH_ORDER, combine, jacobian_from_rows, jacobian_steps, second_form
-from mjcont.numerics.equations.problem import Array, Problem, Values
+from mjcont.numerics.equations.problem import Array, Equations, Values
 from mjcont.numerics.equations.system import Local
 
 
@@ -43,7 +44,7 @@ def cusp_coefficient(local: Local, v: Array, w: Array) -> float:
     return float(w @ (third - 3.0 * second_form(problem, x, values, v, h)) / 6.0)
 
 
-def _size(v: Array, problem: Problem) -> float:
+def _size(v: Array, problem: Equations) -> float:
     return float(np.max(np.abs(v) / problem.state_scale))
 
 
@@ -57,8 +58,8 @@ def _bordered_solve(jac: Any, w: Array, v: Array, rhs: Array) -> Array:
 class FirstOrder:
     """The first-order form around an equilibrium, with multilinear forms by sixth-order differences."""
 
-    def __init__(self, problem: Problem, x: Array, values: Values) -> None:
-        self._f = lambda steps: problem.first_order(x, values, steps)
+    def __init__(self, problem: Equations, x: Array, values: Values) -> None:
+        self._f = partial(problem.first_order, x, values)
         scale = problem.state_scale
         self.scale = np.concatenate([scale, scale]) if problem.second_order else scale
 
@@ -105,7 +106,7 @@ class FirstOrder:
         return (self._along(u + v, 3) - self._along(u - v, 3) - 2.0 * self._along(v, 3)) / 6.0
 
 
-def first_lyapunov(problem: Problem, x: Array, values: Values, omega: float) -> float:
+def first_lyapunov(problem: Equations, x: Array, values: Values, omega: float) -> float:
     """Return l1 at a Hopf point of frequency omega.
 
     |q| = 1 in the unknowns of a first-order problem, in the positions of a second-order one.
@@ -134,7 +135,7 @@ def eigenvectors(jac: Array, omega: float) -> tuple[Array, Array]:
     return q, p / np.vdot(q, p)
 
 
-def double_zero_coefficients(problem: Problem, x: Array, values: Values) -> dict[str, float]:
+def double_zero_coefficients(problem: Equations, x: Array, values: Values) -> dict[str, float]:
     """Return a, b of the Bogdanov-Takens normal form x'' = a x^2 + b x x' of the first-order form.
 
     a = p1 . B(q0, q0) / 2, b = p0 . B(q0, q0) + p1 . B(q0, q1) with the generalised eigenvectors J q0 = 0,
@@ -225,6 +226,7 @@ def _upwards(direction: Array) -> Array:
 
 def _steepness(tangent: Array) -> list[float]:
     """Return what orders tangents: that along which the parameter moves most comes first. Rounded: it is no choice."""
-    return np.round(-np.append(tangent[-1], tangent), 3).tolist()
+    order: list[float] = np.round(-np.append(tangent[-1], tangent), 3).tolist()
+    return order
 
 

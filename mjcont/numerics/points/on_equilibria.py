@@ -12,13 +12,15 @@ from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.defining import BranchPoint, Fold, Hopf
 from mjcont.numerics.equations.newton import Corrected, solve
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points import normalform
 from mjcont.numerics.points.events import (
+    Found,
     Located,
-    Retry,
     ScalarZero,
+    Solved,
     ZeroDetector,
     approximate,
     bisect,
@@ -28,7 +30,7 @@ from mjcont.numerics.points.events import (
 )
 from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum, negative_stiffness, spectrum_of
-from mjcont.numerics.step.arclength import CurvePoint, advance, turning_fraction
+from mjcont.numerics.step.arclength import BEFORE, CurvePoint, advance, turning_fraction
 
 _NOT_TRANSVERSE = 1e-6
 # the unfolding of a true branch point vanishes with the square of the error of its location
@@ -57,18 +59,22 @@ class BranchPointDetector:
     system: System
     settings: Settings
 
-    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+    def value(self, point: CurvePoint) -> float:
+        """Return the orientation."""
+        return point.sign
+
+    def crossed(self, old: CurvePoint, new: CurvePoint) -> bool:
         """Whether the orientation changes; it is zero on a branch point, which belongs to the steps on both sides."""
         return old.sign != new.sign
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
         near = approximate(self.system, old, new, 0.5, self.settings)
-        if near.failure:
+        if near.failure is not None:
             return None
         condition = BranchPoint(near.local, self.system.free[0])
         full, y = square_system(self.system, [condition], near)
         c = solve(full, near.x, y)
-        if c.failure or abs(c.y[self.system.k]) > _UNFOLDED:
+        if c.failure is not None or abs(c.y[self.system.k]) > _UNFOLDED:
             return None
         s = within(self.system, old, new, c)
         if s is None:
@@ -83,18 +89,15 @@ class BranchPointDetector:
             data["type"] = f"{'super' if data['c'] < 0 else 'sub'}critical pitchfork"
         return Located("BP", point, c.step, True, data)
 
-    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found | Refused:
         """Return the branch point between the points.
 
-        Raises
-        ------
-        Retry
-            If the orientation changes without a branch point. Where it vanishes a matrix is singular by chance.
+        Refused if the orientation changes without one. Where it vanishes a matrix is singular by chance.
         """
-        result = bisect(self.system, old, new, self.changed, self._settle, self.settings)
+        result = bisect(self.system, old, new, self.crossed, self._settle, self.settings)
         if result is None and old.sign * new.sign < 0:
-            raise Retry("the orientation changes without a branch point: another branch is near")
-        return [result] if result is not None else []
+            return Refused(Why.OTHER_BRANCH, "the orientation changes without a branch point: another branch is near")
+        return Found() if result is None else Found([result])
 
 
 def _balanced(system: System, fold: Fold, c: Corrected) -> Corrected:
@@ -103,7 +106,7 @@ def _balanced(system: System, fold: Fold, c: Corrected) -> Corrected:
     Rounding of the state loads stiff bushes with about 1e-16 k; the left null vector, a motion of the mechanism that
     leaves the pins closed, does not feel those forces.
     """
-    if c.failure:
+    if c.failure is not None:
         return c
     _, w = fold.physical(c.local)
     slope = float(w @ c.local.par[:, 0]) * system.free[0].slope(float(c.y[0]))
@@ -117,18 +120,19 @@ def _balanced(system: System, fold: Fold, c: Corrected) -> Corrected:
 
 def fold_detector(system: System, settings: Settings) -> ZeroDetector:
     """Return the detector of folds: the tangent's parameter component changes sign."""
-    state: dict[str, Fold] = {}
 
     def test(point: CurvePoint) -> float:
         return float(point.tangent[system.n])
 
-    def solve_fold(near: Corrected) -> Corrected:
-        state["fold"] = Fold(near.local)
-        full, y = square_system(system, [state["fold"]], near)
-        return _balanced(full, state["fold"], solve(full, near.x, y))
+    def solve_fold(near: Corrected) -> Solved:
+        fold = Fold(near.local)
+        full, y = square_system(system, [fold], near)
+        return _balanced(full, fold, solve(full, near.x, y)), full
 
-    def finish(c: Corrected) -> tuple[dict[str, Any], str] | None:
-        v, w = state["fold"].physical(c.local)
+    def finish(c: Corrected, full: System) -> tuple[dict[str, Any], str] | None:
+        (fold,) = full.conditions
+        assert isinstance(fold, Fold)
+        v, w = fold.physical(c.local)
         f_p = c.local.par[:, 0]
         if abs(w @ f_p) <= _NOT_TRANSVERSE * (np.abs(w) @ np.abs(f_p)):
             return None
@@ -151,15 +155,20 @@ class HopfDetector:
 
     system: System
     settings: Settings
-    neutral: list[Located]
 
-    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+    def value(self, point: CurvePoint) -> int:
+        """Return the number of eigenvalue pairs with positive sum."""
+        return spectrum_of(point).pair_count()
+
+    def crossed(self, old: CurvePoint, new: CurvePoint) -> bool:
         """Whether the count changes; symmetric K and C exclude it."""
+        return not self._excluded(old, new) and (self._differs(old, new) or self._returns(old, new))
+
+    @staticmethod
+    def _excluded(old: CurvePoint, new: CurvePoint) -> bool:
         if negative_stiffness(old) is not None and negative_stiffness(new) is not None:
-            return False
-        if spectrum_of(old).conservative and spectrum_of(new).conservative:
-            return False
-        return self._differs(old, new) or self._returns(old, new)
+            return True
+        return spectrum_of(old).conservative and spectrum_of(new).conservative
 
     def _differs(self, old: CurvePoint, new: CurvePoint) -> bool:
         a, b = spectrum_of(old), spectrum_of(new)
@@ -167,19 +176,26 @@ class HopfDetector:
 
     def _returns(self, old: CurvePoint, new: CurvePoint) -> bool:
         """Whether the critical pair may cross the axis and come back within the step, judged by its slope before."""
+        length, before = new.s - old.s, BEFORE.get(old)
+        if before is None or self._slope(old, new) is None or self._excluded(before, old) or self._differs(before, old):
+            return False
+        slope, a, b = self._slope(before, old), critical_sum(spectrum_of(old)), critical_sum(spectrum_of(new))
+        return slope is not None and a * b > 0 and (a + 0.5 * slope * length) * a < 0 and length > _SMALL
+
+    @staticmethod
+    def _slope(old: CurvePoint, new: CurvePoint) -> float | None:
+        """Return the slope of the critical pair's sum along the curve, None where another pair is now the nearest."""
         length = new.s - old.s
         if length <= 0.0:
-            return False
+            return None
         a, b = critical_pair(spectrum_of(old)), critical_pair(spectrum_of(new))
         if a is None or b is None or not _SAME_PAIR < _frequency(b) / max(_frequency(a), 1e-300) < 1.0 / _SAME_PAIR:
-            return False  # another pair is now the nearest, or a real one
-        new.extra["slope"] = (b[0] - a[0]) / length
-        slope = old.extra.get("slope")
-        return slope is not None and a[0] * b[0] > 0 and (a[0] + 0.5 * slope * length) * a[0] < 0 and length > _SMALL
+            return None  # or a real one
+        return (b[0] - a[0]) / length
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
         near = approximate(self.system, old, new, self._fraction(old, new), self.settings)
-        if near.failure:
+        if near.failure is not None:
             return None
         square = critical_square(local_spectrum(near.local))
         if square is None:
@@ -187,7 +203,7 @@ class HopfDetector:
         condition = Hopf(near.local, square)
         full, y = square_system(self.system, [condition], near)
         c = solve(full, near.x, y)
-        if c.failure:
+        if c.failure is not None:
             return None
         s = within(self.system, old, new, c)
         if s is None:
@@ -206,27 +222,35 @@ class HopfDetector:
         a, b = critical_sum(spectrum_of(old)), critical_sum(spectrum_of(new))
         return zero_fraction(a, b) if a * b < 0 else 0.5
 
-    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found | Refused:
         """Return the Hopf points between the points; several are separated by bisection."""
         difference = abs(spectrum_of(old).pair_count() - spectrum_of(new).pair_count())
         if difference == 0 and spectrum_of(old).n_unstable == spectrum_of(new).n_unstable:
-            raise Retry("a mode may lose its damping and gain it back within the step")
+            return Refused(Why.OVERSEEN, "a mode may lose its damping and gain it back within the step")
         if difference == 0 and new.s - old.s <= _CLOSE:
-            return []
+            return Found()
         if difference != 1 and new.s - old.s > _CLOSE:  # several points here, or a Hopf point and a neutral saddle
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
-            if not isinstance(middle, str):
-                halves = [(a, b) for a, b in ((old, middle), (middle, new)) if self._differs(a, b)]
-                return [e for a, b in halves for e in self.locate(a, b, found)]
+            if not isinstance(middle, Refused):
+                return self._halves(old, middle, new, found)
         if self._undamped(old) or self._undamped(new):
-            return [self._meeting(old, new)]
+            return Found([self._meeting(old, new)])
         result = bisect(self.system, old, new, self._differs, self._settle, self.settings)
         if result is None:
-            return []
-        if result.kind == "NS":
-            self.neutral.append(result)
-            return []
-        return [result]
+            return Found()
+        return Found((), [result]) if result.kind == "NS" else Found([result])
+
+    def _halves(
+        self, old: CurvePoint, middle: CurvePoint, new: CurvePoint, found: Sequence[Located]
+    ) -> Found | Refused:
+        """Return the Hopf points of both halves of a step."""
+        every = Found()
+        for a, b in ((old, middle), (middle, new)):
+            here = self.locate(a, b, found) if self._differs(a, b) else Found()
+            if isinstance(here, Refused):
+                return here
+            every = Found([*every.located, *here.located], [*every.neutral, *here.neutral])
+        return every
 
     @staticmethod
     def _undamped(point: CurvePoint) -> bool:
@@ -238,7 +262,7 @@ class HopfDetector:
         """Return where undamped pairs meet and leave the axis, bracketed."""
         while new.s - old.s > _BRACKET:
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
-            if isinstance(middle, str) or not old.s < middle.s < new.s:
+            if isinstance(middle, Refused) or not old.s < middle.s < new.s:
                 break
             old, new = (old, middle) if self._differs(old, middle) else (middle, new)
         omega = _frequency(critical_pair(spectrum_of(old)) or (0.0, 0.0))
@@ -255,7 +279,11 @@ class MultipleDetector:
     system: System
     settings: Settings
 
-    def changed(self, old: CurvePoint, new: CurvePoint) -> bool:
+    def value(self, point: CurvePoint) -> int | None:
+        """Return the number of unstable eigenvalues of a conservative problem, None for any other."""
+        return self._unstable(point)
+
+    def crossed(self, old: CurvePoint, new: CurvePoint) -> bool:
         """Whether two or more eigenvalues of K change sign while the curve goes straight on."""
         if old.tangent[self.system.n] * new.tangent[self.system.n] <= 0:
             return False
@@ -271,19 +299,19 @@ class MultipleDetector:
         s = spectrum_of(point)
         return s.n_unstable if s.conservative else None
 
-    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> list[Located]:
+    def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found:
         """Return the bracketed point; none where branch points were found one by one."""
         if sum(e.kind == "BP" for e in found) > 1:
-            return []
+            return Found()
         before = self._unstable(old) or 0
         count = (self._unstable(new) or 0) - before
         while new.s - old.s > _BRACKET:
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
-            if isinstance(middle, str) or not old.s < middle.s < new.s:
+            if isinstance(middle, Refused) or not old.s < middle.s < new.s:
                 break
             old, new = (middle, new) if self._unstable(middle) == before else (old, middle)
         note = f"{abs(count)} eigenvalues of K vanish together: a point of higher multiplicity, bracketed only"
-        return [Located("BP", new, new.s - old.s, False, {"type": "multiple"}, note)]
+        return Found([Located("BP", new, new.s - old.s, False, {"type": "multiple"}, note)])
 
 
 def critical_pairs(s: Spectrum) -> list[tuple[float, float]]:
@@ -326,8 +354,8 @@ def zero_detector(
     def test(point: CurvePoint) -> float:
         return monitor(point.x, system.values(point.y))
 
-    def solve_zero(near: Corrected) -> Corrected:
+    def solve_zero(near: Corrected) -> Solved:
         full, y = square_system(system, [ScalarZero(monitor)], near)
-        return solve(full, near.x, y)
+        return solve(full, near.x, y), full
 
-    return ZeroDetector("UZ", system, test, solve_zero, lambda c: ({"monitor": name}, ""), settings, name)
+    return ZeroDetector("UZ", system, test, solve_zero, lambda c, full: ({"monitor": name}, ""), settings)

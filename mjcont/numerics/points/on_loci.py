@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,22 +11,21 @@ from mjcont.numerics.equations.bordered import Factored
 from mjcont.numerics.equations.defining import DoubleZero, Fold, FoldCoefficient, Hopf, Transversality
 from mjcont.numerics.equations.newton import Corrected, solve
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
-from mjcont.numerics.equations.system import Local, System
+from mjcont.numerics.equations.system import Condition, Local, System
 from mjcont.numerics.points import codim2, normalform
-from mjcont.numerics.points.events import Detector, ZeroDetector
+from mjcont.numerics.points.events import Detector, Solved, ZeroDetector
 from mjcont.numerics.points.on_equilibria import critical_pairs, critical_square, square_system
 from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum, spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint
 
-Finish = Callable[[Corrected], tuple[dict[str, Any], str] | None]
+Finish = Callable[[Corrected, System], tuple[dict[str, Any], str] | None]
 
 
-class FirstLyapunov:
+class FirstLyapunov(Condition):
     """The condition l1 = 0 on a Hopf curve."""
-
-    count, aux, unfolds = 1, (), False
 
     def __init__(self, weight: float) -> None:
         self.weight = weight
@@ -34,10 +33,6 @@ class FirstLyapunov:
     def value(self, local: Local, aux: Array) -> Array:
         """Return l1, relative to its size nearby."""
         return np.array([lyapunov_at(local)]) / self.weight
-
-    def update(self, local: Local, aux: Array) -> None:
-        """Nothing of its own to renew."""
-
 
 def lyapunov_at(local: Local) -> float:
     """Return l1 at or near a Hopf point, NaN where no pair of eigenvalues is imaginary."""
@@ -54,20 +49,20 @@ def fold_locus_detectors(system: System, fold: Fold, settings: Settings) -> list
         def test(point: CurvePoint) -> float:
             return float(build(fold, point.local).value(point.local, np.zeros(0))[0])
 
-        def solve_with(near: Corrected) -> Corrected:
+        def solve_with(near: Corrected) -> Solved:
             full, y = square_system(system, [build(fold, near.local)], near)
-            return solve(full, near.x, y)
+            return solve(full, near.x, y), full
 
         return ZeroDetector(kind, system, test, solve_with, finish, settings)
 
-    def cusp(c: Corrected) -> tuple[dict[str, Any], str]:
+    def cusp(c: Corrected, full: System) -> tuple[dict[str, Any], str]:
         v, w = fold.physical(c.local)
         return {"c": normalform.cusp_coefficient(c.local, v, w), "v": v / np.linalg.norm(v), "w": w}, ""
 
-    def double_zero(c: Corrected) -> tuple[dict[str, Any], str]:
+    def double_zero(c: Corrected, full: System) -> tuple[dict[str, Any], str]:
         return normalform.double_zero_coefficients(c.local.problem, c.x, c.local.values), ""
 
-    def turning(c: Corrected) -> tuple[dict[str, Any], str]:
+    def turning(c: Corrected, full: System) -> tuple[dict[str, Any], str]:
         v, w = fold.physical(c.local)
         name = c.local.wrt[0]
         return {"v": v / np.linalg.norm(v), "w": w}, f"w . f_{name} = 0: the locus turns without a cusp"
@@ -99,25 +94,23 @@ def _double_hopf_count(s: Spectrum) -> int:
 
 def _pair_detector(kind: str, system: System, settings: Settings, count: Callable[[Spectrum], int]) -> ZeroDetector:
     """Return the detector of a further imaginary pair on a locus: ZH on folds, HH on Hopf curves."""
-    state: dict[str, Hopf] = {}
 
     def test(point: CurvePoint) -> float:
         s = spectrum_of(point)
         return 0.5 if s.conservative else float(count(s)) + 0.5
 
-    def changed(old: CurvePoint, new: CurvePoint) -> bool:
-        return test(old) != test(new)
-
-    def solve_with(near: Corrected) -> Corrected:
+    def solve_with(near: Corrected) -> Solved:
         square = _next_square(local_spectrum(near.local), skip=kind == "HH")
         if square is None:
-            return Corrected(near.x, near.y, near.local, None, 0, 0.0, np.inf, np.inf, "no pair of eigenvalues")
-        state["pair"] = Hopf(near.local, square)
-        full, y = square_system(system, [state["pair"]], near)
-        return solve(full, near.x, y)
+            failure = Refused(Why.UNDEFINED, "no pair of eigenvalues")
+            return Corrected(near.x, near.y, near.local, None, 0, 0.0, np.inf, np.inf, failure), system
+        full, y = square_system(system, [Hopf(near.local, square)], near)
+        return solve(full, near.x, y), full
 
-    def finish(c: Corrected) -> tuple[dict[str, Any], str] | None:
-        square = state["pair"].square(c.y[-1:])
+    def finish(c: Corrected, full: System) -> tuple[dict[str, Any], str] | None:
+        pair = full.conditions[-1]
+        assert isinstance(pair, Hopf)
+        square = pair.square(c.y[-1:])
         if square <= 0:
             return None
         omega, local = float(np.sqrt(square)), c.local
@@ -127,7 +120,7 @@ def _pair_detector(kind: str, system: System, settings: Settings, count: Callabl
         first = float(np.sqrt(own))
         return codim2.double_hopf_coefficients(local.problem, c.x, local.values, first, omega)
 
-    return ZeroDetector(kind, system, test, solve_with, finish, settings, "", changed)
+    return ZeroDetector(kind, system, test, solve_with, finish, settings, counts=True)
 
 
 def _next_square(s: Spectrum, skip: bool) -> float | None:
@@ -146,28 +139,26 @@ def hopf_locus_detectors(system: System, hopf: Hopf, settings: Settings, *, lyap
     def kappa(point: CurvePoint) -> float:
         return float(point.y[last])
 
-    def solve_double_zero(near: Corrected) -> Corrected:
+    def solve_double_zero(near: Corrected) -> Solved:
         fold = Fold(near.local)
         free = len(system.free)
         base = System(system.problem, system.values(near.y), system.free, (), accurate=True)
         at = Corrected(near.x, near.y[:free], near.local, None, 0, 0.0, 0.0, 0.0)
         full, y = square_system(base, [fold, DoubleZero(fold, near.local)], at)
         c = solve(full, near.x, y)
-        return Corrected(c.x, np.append(c.y, 0.0), c.local, None, c.iterations, 0.0, c.step, c.error, c.failure)
+        return Corrected(c.x, np.append(c.y, 0.0), c.local, None, c.iterations, 0.0, c.step, c.error, c.failure), full
 
-    def finish_double_zero(c: Corrected) -> tuple[dict[str, Any], str]:
+    def finish_double_zero(c: Corrected, full: System) -> tuple[dict[str, Any], str]:
         return normalform.double_zero_coefficients(c.local.problem, c.x, c.local.values), ""
 
     def determinant(point: CurvePoint) -> float:
-        if "det" not in point.extra:
-            point.extra["det"] = Factored(point.local.jac).sign * float(np.sign(point.y[last]))
-        return float(point.extra["det"])
+        return Factored(point.local.jac).sign * float(np.sign(point.y[last]))
 
-    def solve_fold(near: Corrected) -> Corrected:
+    def solve_fold(near: Corrected) -> Solved:
         full, y = square_system(system, [Fold(near.local)], near)
-        return solve(full, near.x, y)
+        return solve(full, near.x, y), full
 
-    def finish_fold(c: Corrected) -> tuple[dict[str, Any], str] | None:
+    def finish_fold(c: Corrected, full: System) -> tuple[dict[str, Any], str] | None:
         square = hopf.square(c.y[last : last + 1])
         if square <= 1e-6 * hopf.rate * hopf.rate:
             return None
@@ -190,12 +181,12 @@ def _generalised_hopf(system: System, hopf: Hopf, settings: Settings) -> ZeroDet
         value = lyapunov_at(point.local) if point.y[last] > 0 else float("nan")
         return value
 
-    def solve_with(near: Corrected) -> Corrected:
+    def solve_with(near: Corrected) -> Solved:
         weight = abs(lyapunov_at(near.local)) or 1.0
         full, y = square_system(system, [FirstLyapunov(max(weight, 1e-3))], near)
-        return solve(full, near.x, y, tol=1e-11, most=12)
+        return solve(full, near.x, y, tol=1e-11, most=12), full
 
-    def finish(c: Corrected) -> tuple[dict[str, Any], str] | None:
+    def finish(c: Corrected, full: System) -> tuple[dict[str, Any], str] | None:
         square = hopf.square(c.y[last : last + 1])
         if square <= 0:
             return None
@@ -214,25 +205,3 @@ def unfolding_stop(system: System) -> Callable[[CurvePoint], str | None]:
         return None
 
     return stop
-
-
-
-
-def conditions_of(kind: str, local: Local, system: System, square: float | None) -> Sequence[Any]:
-    """Return the conditions that define a special point of a kind, with borders from the point itself."""
-    from mjcont.numerics.equations.defining import BranchPoint
-
-    if kind == "HB":
-        assert square is not None
-        return [Hopf(local, square)]
-    if kind == "BP":
-        return [BranchPoint(local, system.free[0])]
-    fold = Fold(local)
-    if kind == "CP":
-        return [fold, FoldCoefficient(fold, local)]
-    if kind == "BT":
-        return [fold, DoubleZero(fold, local)]
-    if kind == "ZH":
-        assert square is not None
-        return [fold, Hopf(local, square)]
-    return [fold]

@@ -13,12 +13,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Refused, Why
 
 _SUFFICIENT = 1e-4
 _SHORTEST = 1e-6
 _SHORTEST_UNDEFINED = 1e-3
 _FLAT = 1e-13
 _NEAR = 1e-3
+_UNDEFINED = Refused(Why.UNDEFINED, "the function is not defined where it falls further")
+_STALLED = Refused(Why.STALLED, "no step lowers it further")
 _CREEP = 1e-2  # steps shortened by an edge of existence that gain less than this end a run
 
 
@@ -32,8 +35,7 @@ class Minimum:
     value, gradient : there.
     kkt : largest component of the projected gradient, u - P(u - gradient).
     iterations : int
-    failure : empty where the point is stationary, or a sentence.
-    undefined : whether the function was found undefined beside the last point.
+    failure : None where the point is stationary; undefined where the function is, beside the last point.
     """
 
     u: Array
@@ -41,8 +43,7 @@ class Minimum:
     gradient: Array
     kkt: float
     iterations: int
-    failure: str = ""
-    undefined: bool = False
+    failure: Refused | None = None
 
 
 def projected(u: Array, gradient: Array) -> Array:
@@ -67,7 +68,8 @@ def minimise(
     if here is None:
         return None
     value, gradient = here
-    inverse, undefined, failure = np.eye(len(u)) / max(float(np.abs(gradient).max()), _FLAT), False, ""
+    inverse, undefined = np.eye(len(u)) / max(float(np.abs(gradient).max()), _FLAT), False
+    failure: Refused | None = None
     for iteration in range(1, most + 1):
         kkt = float(np.abs(projected(u, gradient)).max())
         if kkt <= tol:
@@ -80,7 +82,7 @@ def minimise(
             direction = downhill
         found, undefined = _search(function, u, value, gradient, direction)
         if found is None or (undefined and value - found[1] < _CREEP):
-            failure = "the function is not defined where it falls further" if undefined else "no step lowers it further"
+            failure = _UNDEFINED if undefined else _STALLED
             if found is not None:
                 u, value, gradient = found
             break
@@ -88,9 +90,10 @@ def minimise(
         inverse = _updated(inverse, after - u, slope - gradient)
         u, gradient = after, slope
     else:
-        failure = f"not stationary after {most} steps"
+        why = Why.UNDEFINED if undefined else Why.UNSETTLED
+        failure = Refused(why, f"not stationary after {most} steps")
     kkt = float(np.abs(projected(u, gradient)).max())
-    return Minimum(u, value, gradient, kkt, iteration, failure, undefined)
+    return Minimum(u, value, gradient, kkt, iteration, failure)
 
 
 def _search(

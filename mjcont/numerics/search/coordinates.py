@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mjcont.numerics.equations.problem import Array, Problem
+from mjcont.numerics.equations.problem import Array, Equations
 
 _TURN = 2.0 * math.pi
 _EDGE = 1e-9
@@ -43,7 +43,7 @@ class Slot:
 class Coordinates:
     """All slots of a problem's state."""
 
-    problem: Problem
+    problem: Equations
     slots: tuple[Slot, ...]
 
     @property

@@ -18,7 +18,8 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.equations.algebra import eigenvectors, solve
-from mjcont.numerics.equations.problem import Array, Problem, Values
+from mjcont.numerics.equations.problem import Array, Equations, Values
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.system import Local
 
 _REACH = 0.05
@@ -30,11 +31,11 @@ _SLOWEST = 1e-100
 
 @dataclass(frozen=True, slots=True)
 class Crept:
-    """Where a creeping motion ended: the state, the number of steps, and why it did not come to rest (or empty)."""
+    """Where a creeping motion ended: the state, the number of steps, and why it did not come to rest, if so."""
 
     x: Array
     steps: int
-    failure: str = ""
+    failure: Refused | None = None
 
 
 def rates(local: Local) -> tuple[Array, Array, Array]:
@@ -57,7 +58,7 @@ def _phi(values: Array, dt: float) -> Array:
 
 
 def creep(
-    problem: Problem, x: Array, values: Values, *, reach: float = _REACH, most: int = 2000, away: float = np.inf
+    problem: Equations, x: Array, values: Values, *, reach: float = _REACH, most: int = 2000, away: float = np.inf
 ) -> Crept:
     """Follow M x' = f until it rests.
 
@@ -73,13 +74,15 @@ def creep(
             return Crept(x, steps)
         local = Local(problem, x, values, (), False)
         if not np.all(np.isfinite(local.f)):
-            return Crept(x, steps, "the creeping motion left the domain of f")
+            return Crept(x, steps, Refused(Why.UNDEFINED, "the creeping motion left the domain of f"))
         s, vectors, g = rates(local)
         if not (np.isfinite(s).all() and np.isfinite(g).all()):
-            return Crept(x, steps, "the creeping motion has no rates where it is: df/dx or the mass is singular there")
+            sentence = "the creeping motion has no rates where it is: df/dx or the mass is singular there"
+            return Crept(x, steps, Refused(Why.UNDEFINED, sentence))
 
         def step(dt: float, s: Array = s, vectors: Array = vectors, g: Array = g) -> Array:
-            return (vectors @ (_phi(s, dt) * g)).real
+            moved: Array = (vectors @ (_phi(s, dt) * g)).real
+            return moved
 
         dx = step(np.inf) if np.all(s.real < 0.0) else np.full(problem.n, np.inf)
         size = float(np.max(np.abs(dx) / problem.state_scale))
@@ -88,7 +91,7 @@ def creep(
         if not size <= reach:
             dx = step(_longest(lambda dt, f=step: float(np.max(np.abs(f(dt)) / problem.state_scale)), s, reach))
         x = problem.retract(x, dx)
-    return Crept(x, most, f"the creeping motion had not come to rest after {most} steps")
+    return Crept(x, most, Refused(Why.UNSETTLED, f"the creeping motion had not come to rest after {most} steps"))
 
 
 def _longest(size: Any, s: Array, reach: float) -> float:

@@ -53,7 +53,8 @@ class Deflation:
             slope = np.where(turning, np.cos(angle), 1.0)
         squared = np.maximum(np.einsum("mri,mri->mr", chord, chord), 1e-30)
         # the logarithmic derivative of 1 / d^2 + 1
-        return np.einsum("mr,mri->mi", -2.0 / (squared * (1.0 + squared)), chord * slope)
+        found: Array = np.einsum("mr,mri->mi", -2.0 / (squared * (1.0 + squared)), chord * slope)
+        return found
 
     def factor(self, states: Array, steps: Array) -> Array:
         """Return what Newton's steps of f are multiplied by, (m,)."""

@@ -17,7 +17,7 @@ from scipy import sparse
 
 from mjcont.numerics.equations.algebra import singular
 from mjcont.numerics.equations.differences import SECOND_ORDER, jacobian_steps
-from mjcont.numerics.equations.problem import Array, Problem, Values
+from mjcont.numerics.equations.problem import Array, Equations, Values
 
 _LARGEST_STEP = 1.0
 _ROWS = 200
@@ -39,7 +39,7 @@ class Many:
 
     Attributes
     ----------
-    problem : Problem
+    problem : Equations
     values : Values
     flat : bool
         Whether states are vectors of the tangent space, so that steps add.
@@ -49,7 +49,7 @@ class Many:
         A run that leaves centre -+ reach is given up; inf where a coordinate has no end.
     """
 
-    problem: Problem
+    problem: Equations
     values: Values
     flat: bool
     single: bool
@@ -58,7 +58,8 @@ class Many:
 
     def near(self, states: Array) -> Array:
         """Whether states are where the search is, (m,)."""
-        return np.all(np.abs(states - self.centre) <= self.reach, axis=1)
+        found: Array = np.all(np.abs(states - self.centre) <= self.reach, axis=1)
+        return found
 
     def move(self, states: Array, steps: Array) -> Array:
         """Return states moved by scaled steps, (m, nq)."""
@@ -104,13 +105,15 @@ class Many:
 
 
 def _dense(matrix: Any) -> Array:
-    return matrix.toarray() if sparse.issparse(matrix) else matrix
+    found: Array = matrix.toarray() if sparse.issparse(matrix) else matrix
+    return found
 
 
 def shortened(steps: Array) -> Array:
     """Return steps of limited length, (m, n); those that are no numbers become zero."""
     steps = np.where(np.all(np.isfinite(steps), axis=1)[:, None], steps, 0.0)
-    return steps * np.minimum(1.0, _LARGEST_STEP / np.maximum(np.linalg.norm(steps, axis=1), 1e-300))[:, None]
+    found: Array = steps * np.minimum(1.0, _LARGEST_STEP / np.maximum(np.linalg.norm(steps, axis=1), 1e-300))[:, None]
+    return found
 
 
 def _rows_scaled(f: Array, jac: Array, weights: Array) -> tuple[Array, Array]:
@@ -120,7 +123,8 @@ def _rows_scaled(f: Array, jac: Array, weights: Array) -> tuple[Array, Array]:
 def _weights(jac: Array) -> Array:
     """Return 1 / (size of each equation), guarded where an equation's row of J is small."""
     largest = np.max(np.abs(jac), axis=2)
-    return 1.0 / np.maximum(largest, np.maximum(1e-3 * largest.max(axis=1, keepdims=True), 1e-300))
+    found: Array = 1.0 / np.maximum(largest, np.maximum(1e-3 * largest.max(axis=1, keepdims=True), 1e-300))
+    return found
 
 
 def spectral_step(f: Array, jac: Array) -> tuple[Array, Array, Array]:
@@ -137,7 +141,8 @@ def _damped(u: Array, sigma: Array, vt: Array, f: Array, damping: Array) -> Arra
     """Return -(J'J + damping)^-1 J' f from the singular values of J."""
     along = np.einsum("mji,mj->mi", u, f)
     floor = np.maximum(sigma, _SMALLEST * np.maximum(sigma[:, :1], 1e-300))
-    return -np.einsum("mij,mi->mj", vt, along * floor / (floor**2 + damping[:, None]))
+    found: Array = -np.einsum("mij,mi->mj", vt, along * floor / (floor**2 + damping[:, None]))
+    return found
 
 
 def levenberg_marquardt(many: Many, states: Array, *, most: int = 80, tol: float = 1e-7) -> Runs:

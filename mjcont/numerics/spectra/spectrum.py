@@ -119,7 +119,7 @@ def _measured_noise(mass: Array, damping: Array, stiffness: Array, s: complex, s
     spread = float(np.std(samples @ p.conj()))
     size = abs(s) ** 2 * np.abs(mass).max() + abs(s) * np.abs(damping).max() + np.abs(stiffness).max()
     error = 4.0 * spread / SECOND_ORDER.step * float(np.linalg.norm(q)) + _EIGENSOLVER * size
-    return error / max(slope, 1e-300)
+    return float(error / max(slope, 1e-300))
 
 
 def symmetric(matrix: Array) -> bool:
@@ -139,7 +139,8 @@ def quadratic_eigenvalues(mass: Array, damping: Array, stiffness: Array) -> Arra
     block = np.zeros((*mass.shape[:-2], 2 * n, 2 * n))
     block[..., :n, n:] = np.eye(n)
     block[..., n:, :n], block[..., n:, n:] = -k / rate**2, -c / rate
-    return eigenvalues(block) * rate[..., 0]
+    found: Array = eigenvalues(block) * rate[..., 0]
+    return found
 
 
 def conservative_spectra(pencils: Sequence[Pencil]) -> list[Spectrum]:

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from mjcont.numerics.equations.algebra import symmetric_eigenvalues
-from mjcont.numerics.equations.problem import Array, Range, Values
+from mjcont.numerics.equations.problem import Array, Equations, Range, Values
 from mjcont.numerics.equations.system import Local
 from mjcont.numerics.spectra.spectrum import (
     MARGINAL,
@@ -24,29 +23,24 @@ from mjcont.numerics.spectra.spectrum import (
     symmetric,
 )
 from mjcont.numerics.step.arclength import CurvePoint
+from mjcont.numerics.step.notes import Note
 
-# how many eigenvalues a point of a kind holds at zero, and how many pairs on the axis, by its definition
-_HELD = {
-    "LP": (1, 0), "BP": (1, 0), "CP": (1, 0), "HB": (0, 1), "GH": (0, 1), "BT": (2, 0), "ZH": (1, 1), "HH": (0, 2),
-}
 # an eigenvalue no farther from zero than this many times one that is held there cannot be told from it
 _AS_NEAR = 10.0
 # entries of the evaluations for derivatives that are held at a time
 _ENTRIES = 2**17
+# the spectrum; the number of negative eigenvalues of K; that of unstable ones, told by the points beside
+SPECTRUM, NEGATIVE, COUNT = Note[Spectrum](), Note[int | None](), Note[int | None]()
 
 
-def holds_eigenvalues(kind: str) -> bool:
-    """Whether a special point of a kind holds eigenvalues on the axis."""
-    return kind in _HELD
-
-
-def verdict_at(kind: str, s: Spectrum) -> tuple[str, int]:
+def verdict_at(holds: tuple[int, int], s: Spectrum) -> tuple[str, int]:
     """Return stability and number of unstable eigenvalues of a special point: marginal, and those it does not hold.
 
-    It is rounding that decides on which side of the axis the eigenvalues that it holds there are found.
+    `holds` is how many eigenvalues it holds at zero, and how many pairs on the axis: rounding decides on which side of
+    it they are found.
     """
     ev = s.eigenvalues
-    zeros, pairs = _HELD[kind]
+    zeros, pairs = holds
     held = np.zeros(len(ev), dtype=bool)
     if zeros:  # as many as the kind says, or more at a point of higher multiplicity
         held |= np.abs(ev) <= _AS_NEAR * np.sort(np.abs(ev))[min(zeros, len(ev)) - 1]
@@ -61,9 +55,7 @@ def verdict_at(kind: str, s: Spectrum) -> tuple[str, int]:
 
 def spectrum_of(point: CurvePoint) -> Spectrum:
     """Return the spectrum at a point, computed once."""
-    if "spectrum" not in point.extra:
-        point.extra["spectrum"] = local_spectrum(point.local)
-    return point.extra["spectrum"]
+    return SPECTRUM.of(point, lambda: local_spectrum(point.local))
 
 
 def negative_stiffness(point: CurvePoint) -> int | None:
@@ -72,26 +64,27 @@ def negative_stiffness(point: CurvePoint) -> int | None:
     None where it does not decide: for a K that is not symmetric, or a problem whose damping is not known to be
     passive whatever the state (symmetric, semidefinite C).
     """
-    if "negative" not in point.extra:
-        count = None
-        if getattr(point.local.problem, "passive", False) and symmetric(point.local.raw_jac):
-            count = int(np.count_nonzero(symmetric_eigenvalues(point.local.raw_jac) > 0.0))
-        point.extra["negative"] = count
-    return point.extra["negative"]
+
+    def count() -> int | None:
+        if not (point.local.problem.passive and symmetric(point.local.raw_jac)):
+            return None
+        return int(np.count_nonzero(symmetric_eigenvalues(point.local.raw_jac) > 0.0))
+
+    return NEGATIVE.of(point, count)
 
 
 def spectra_of(points: Sequence[CurvePoint]) -> list[Spectrum]:
     """Return the spectra at points, those that the walk could do without in one go."""
-    late = [p for p in points if "spectrum" not in p.extra and negative_stiffness(p) is not None]
+    late = [p for p in points if not SPECTRUM.known(p) and negative_stiffness(p) is not None]
     if late:
-        problem: Any = late[0].local.problem
-        pencils = problem.pencils([p.x for p in late], [p.local.values for p in late], [p.local.raw_jac for p in late])
+        problem, states = late[0].local.problem, np.array([p.x for p in late])
+        pencils = problem.pencils(states, [p.local.values for p in late], [p.local.raw_jac for p in late])
         for point, found in zip(late, conservative_spectra(pencils), strict=True):
-            point.extra["spectrum"] = found
+            SPECTRUM.put(point, found)
     return [spectrum_of(p) for p in points]
 
 
-def spectra_at(problem: Any, states: Array, values: Sequence[Values], name: str, bounds: Range) -> list[Spectrum]:
+def spectra_at(problem: Equations, states: Array, values: Sequence[Values], name: str, bounds: Range) -> list[Spectrum]:
     """Return the spectra at equilibria, states (m, nq), between which one parameter differs, within bounds."""
     found: list[Spectrum] = []
     many = max(_ENTRIES // (2 * problem.n**2), 1)
@@ -102,13 +95,13 @@ def spectra_at(problem: Any, states: Array, values: Sequence[Values], name: str,
 
 
 def _some_spectra(
-    problem: Any, states: Array, values: Sequence[Values], name: str, bounds: Range
+    problem: Equations, states: Array, values: Sequence[Values], name: str, bounds: Range
 ) -> list[Spectrum]:
     column = np.array([v[name] for v in values])
     together = problem.linearize_along(states, values[0], name, column, bounds)
     every = [Local(problem, x, v, (), False) for x, v in zip(states, values, strict=True)]
     jacs = list(together[1]) if together is not None else [local.raw_jac for local in every]
-    if not getattr(problem, "passive", False) or not all(symmetric(j) for j in jacs):
+    if not problem.passive or not all(symmetric(j) for j in jacs):
         pencils = [problem.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]
         return [spectrum(p, partial(rounding_samples, local)) for p, local in zip(pencils, every, strict=True)]
     return conservative_spectra(problem.pencils(states, values, jacs))
@@ -136,7 +129,7 @@ def verdicts(
     compute([i for i, v in enumerate(found) if v is None and i not in waiting])
     beside, asked = _beside(len(points), waiting), []
     for i in inside:
-        count = points[i].extra["count"]
+        count = COUNT.get(points[i])
         ends = [v for v in (found[k] for k in beside[i]) if v is not None]
         told = [v for v in ends if v[1] == count and v[0] != MARGINAL]
         if told:
@@ -153,19 +146,18 @@ def tell(old: CurvePoint, between: Sequence[CurvePoint], new: CurvePoint) -> Non
     a, b = spectrum_of(old), spectrum_of(new)
     if a.n_unstable == b.n_unstable:
         for point in between:
-            point.extra["count"] = a.n_unstable
+            COUNT.put(point, a.n_unstable)
 
 
 def _told(point: CurvePoint) -> bool:
     """Whether a point inside a long step waits for its ends to tell its stability."""
-    return "spectrum" not in point.extra and point.extra.get("count") is not None
+    return not SPECTRUM.known(point) and COUNT.get(point) is not None
 
 
 def _plain(point: CurvePoint) -> tuple[str, int] | None:
     """Return stability and count where the inertia of K decides alone; without it a mode may still be undamped."""
-    if "spectrum" in point.extra or not point.extra.get("negative"):
-        return None
-    return UNSTABLE, point.extra["negative"]
+    negative = NEGATIVE.get(point)
+    return (UNSTABLE, negative) if negative and not SPECTRUM.known(point) else None
 
 
 def _beside(count: int, waiting: Collection[int]) -> list[tuple[int, ...]]:

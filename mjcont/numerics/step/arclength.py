@@ -19,9 +19,11 @@ from scipy.optimize import brentq
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, oriented
 from mjcont.numerics.equations.newton import Corrected, correct, length, undefined, with_row
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.step.hermite import arc, combine, hermite, lagrange
+from mjcont.numerics.step.notes import Note
 
 _WANDER = 0.5
 _CONTRACTION = 0.1
@@ -40,6 +42,12 @@ _BEHIND = 0.16
 _ALMOST = 1.1
 # the contraction of the last corrector counts as this many times worse for the next
 _TRUST = 3.0
+
+# whether a point lies inside a long step; whether the user's stop or a limit ended the curve there
+INSIDE, OUTSIDE = Note[bool](), Note[bool]()
+# the point from which a step led to a point; that one's own is forgotten, so that no chain of all points is kept
+BEFORE: Note[CurvePoint] = Note()
+_TURNING_RATE = Note[Array]()
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +83,7 @@ class CurvePoint:
     angle : turning of the tangent since the last point, rad.
     rate : contraction of the corrector's last step.
     past : up to four points before (one on a locus), the latest first.
-    extra : what detectors keep of the point (test values, spectrum).
+    notes : what is found out about the point once, see `Note`.
     """
 
     x: Array
@@ -91,7 +99,7 @@ class CurvePoint:
     iterations: int = 0
     rate: float = math.inf
     past: tuple[Earlier, ...] = ()
-    extra: dict[str, Any] = field(default_factory=dict)
+    notes: dict[Any, Any] = field(default_factory=dict)
 
 
 def point_from(c: Corrected, reference: Array, s: float) -> CurvePoint:
@@ -110,10 +118,10 @@ def point_from(c: Corrected, reference: Array, s: float) -> CurvePoint:
 
 def first_point(
     system: System, x: Array, y: Array, direction: float, settings: Settings, lead: int = 0
-) -> CurvePoint | str:
+) -> CurvePoint | Refused:
     """Return the point of the curve nearest to (x, y), the free parameter `lead` growing for direction > 0.
 
-    Returns a sentence where the corrector fails.
+    Refused where the corrector fails.
     """
     tangent = tangent_at(system, system.local(x, y), y)
     if np.any(np.isnan(tangent)):
@@ -124,7 +132,7 @@ def first_point(
         row = np.zeros_like(tangent)
         row[lead] = 1.0
     c = correct(system, x, y, row, None, settings)
-    if c.failure:
+    if c.failure is not None:
         return c.failure
     at_fold = abs(tangent[lead]) <= _AT_FOLD
     upwards = oriented(tangent) if at_fold else math.copysign(1.0, tangent[lead]) * tangent
@@ -187,7 +195,8 @@ def _matrix_ahead(point: CurvePoint, h: float) -> Array:
     """
     past = _apart(point, h)
     if not past:
-        return point.jac
+        jac: Array = point.jac
+        return jac
     return combine(lagrange([0.0, *(e.s - point.s for e in past)], h), [point.jac, *(e.jac for e in past)])
 
 
@@ -230,8 +239,8 @@ def advance(
     *,
     fresh: bool = False,
     prediction: Array | None = None,
-) -> CurvePoint | str:
-    """Return the next point a step h along the curve, or a sentence that says why the step is refused.
+) -> CurvePoint | Refused:
+    """Return the next point a step h along the curve, or why the step is refused.
 
     `fresh` takes derivatives at the prediction instead of those of the last point: dearer, but with stiff bushes
     the soft direction turns by more than the last point's derivatives can tell. `prediction` is `predict`'s, where it
@@ -243,18 +252,26 @@ def advance(
     expected = _TRUST * point.rate if extrapolated and len(point.past) == _PAST else math.inf
     lu = None if fresh else Factored(with_row(_matrix_ahead(point, h) if extrapolated else point.jac, point.tangent))
     c = correct(system, x, y, point.tangent, lu, settings, expected)
-    if c.failure:
+    if c.failure is not None:
         return c.failure
     chord = system.difference(c.x, c.y, point.x, point.y)
     wandered = length(chord - prediction)
     if wandered > _WANDER * abs(h):
-        return "the corrector wandered off the prediction"
+        return Refused(Why.WANDERED, "the corrector wandered off the prediction")
     new = point_from(c, point.tangent, point.s)
     new.s += length(chord) if system.conditions else arc(length(chord), math.cos(new.angle))
     new.past = remembered(point, chord)[: 1 if system.conditions else _PAST]
     if new.angle > settings.angle_max:
-        return f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg"
+        return Refused(Why.TURNED, f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg")
     return new
+
+
+def follows(new: CurvePoint, old: CurvePoint) -> None:
+    """Note that a step led from one point to another."""
+    BEFORE.put(new, old)
+    before = BEFORE.get(old)
+    if before is not None:
+        BEFORE.drop(before)
 
 
 def next_step(h: float, new: CurvePoint, settings: Settings, growth: float = _GROWTH) -> float:
@@ -312,18 +329,20 @@ def falls_between(system: System, old: CurvePoint, new: CurvePoint, index: int =
     """Whether the slope of y[index], far smaller at one of two points, falls further from there to the other."""
     i = system.n + index
     (low, way) = (old, 1.0) if abs(old.tangent[i]) < abs(new.tangent[i]) else (new, -1.0)
-    return way * _turning_rate(system, low)[i] * low.tangent[i] < 0.0
+    return bool(way * _turning_rate(system, low)[i] * low.tangent[i] < 0.0)
 
 
 def _turning_rate(system: System, point: CurvePoint) -> Array:
     """Return the derivative of the tangent along the curve, (n + k,): from G_zz(t, t) by differences."""
-    if "turning rate" not in point.extra:
+
+    def find() -> Array:
         ahead, here, behind = (
             system.local(*system.move(point.x, point.y, h * point.tangent)).f for h in (_PROBE, 0.0, -_PROBE)
         )
         bent = np.append((ahead - 2.0 * here + behind) / _PROBE**2, 0.0)
-        point.extra["turning rate"] = -Factored(with_row(point.jac, point.tangent)).solve(bent)
-    return point.extra["turning rate"]
+        return -Factored(with_row(point.jac, point.tangent)).solve(bent)
+
+    return _TURNING_RATE.of(point, find)
 
 
 def turning_fraction(system: System, old: CurvePoint, new: CurvePoint, index: int) -> float:
@@ -361,7 +380,7 @@ def by_contraction(new: CurvePoint, growth: float = _GROWTH) -> float:
 def turned_back(system: System, points: Sequence[CurvePoint]) -> CurvePoint:
     """Return the first of a curve's points as the start of the other direction, those behind it as its past."""
     start = points[0]
-    firm = [p for p in points[1:] if "interior" not in p.extra and p.s <= _BEHIND]
+    firm = [p for p in points[1:] if not INSIDE.known(p) and p.s <= _BEHIND]
     chosen = [firm[(len(firm) - 1) // 2], firm[-1]] if len(firm) > 1 else firm
     past = tuple(Earlier(-p.s, system.difference(p.x, p.y, start.x, start.y), -p.tangent, p.jac) for p in chosen)
     return CurvePoint(
@@ -379,8 +398,8 @@ def land(
     *,
     fresh: bool = False,
     steady: bool = False,
-) -> CurvePoint | str:
-    """Return the point about h ahead at which y[index] = target, or a sentence that says why it is not met there.
+) -> CurvePoint | Refused:
+    """Return the point about h ahead at which y[index] = target, or why it is not met there.
 
     `fresh` as in `advance`, `steady` as in `predict`.
     """
@@ -392,12 +411,12 @@ def land(
     extrapolated = not (fresh or system.conditions or sparse.issparse(point.jac))
     lu = Factored(with_row(_matrix_ahead(point, h), row)) if extrapolated else None
     c = correct(system, x, y, row, lu, settings)
-    if c.failure:
+    if c.failure is not None:
         return c.failure
     chord = system.difference(c.x, c.y, point.x, point.y)
     new = point_from(c, point.tangent, point.s)
     if length(chord - prediction) > _WANDER * h + _NOISY or new.angle > settings.angle_max:
-        return "the bound was not met along the curve"
+        return Refused(Why.MISSED, "the bound was not met along the curve")
     new.s += arc(length(chord), math.cos(new.angle))
     new.past = remembered(point, chord)
     return new

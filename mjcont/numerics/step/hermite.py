@@ -109,4 +109,5 @@ def arc(chord: float, cosine: float) -> float:
 def combine(weights: Sequence[float], parts: Sequence[Array]) -> Array:
     """Return sum_i weights[i] * parts[i]."""
     stack = np.array(parts)
-    return (np.array(weights) @ stack.reshape(len(parts), -1)).reshape(stack.shape[1:])
+    found: Array = (np.array(weights) @ stack.reshape(len(parts), -1)).reshape(stack.shape[1:])
+    return found

@@ -124,7 +124,8 @@ def _counts(nodes: _Nodes, chord: float) -> Array:
         largest[mine] = np.maximum(largest[mine], np.where(near, 0.5 * (bends[mine] + bends[other]), 0.0))
     pieces = np.ceil(lengths * np.sqrt(largest / (8.0 * chord)))
     pieces[(lengths <= _SHORT) | (turns > _TURNED)] = 1
-    return np.maximum(pieces.astype(int), 1) - 1
+    found: Array = np.maximum(pieces.astype(int), 1) - 1
+    return found
 
 
 def _settled(system: System, nodes: _Nodes, windows: Array, after: Array, fraction: Array) -> Between:

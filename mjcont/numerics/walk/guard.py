@@ -9,11 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mjcont.errors import MjcontError
-from mjcont.numerics.points.events import Located
-from mjcont.numerics.step.arclength import CurvePoint
-from mjcont.numerics.walk.steps import End, Status
+from mjcont.numerics.walk.steps import End, Item, Status
 
-Items = Iterator[CurvePoint | Located | End]
+Items = Iterator[Item]
 _raised = False
 
 

@@ -19,9 +19,10 @@ from mjcont.numerics.equations.algebra import inverses
 from mjcont.numerics.equations.bordered import Factored
 from mjcont.numerics.equations.newton import LARGEST_ERROR, length, with_row
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System, equation_sizes
-from mjcont.numerics.step.arclength import CurvePoint, Earlier, falls_between, far_below, pairs_may_turn_twice
+from mjcont.numerics.step.arclength import INSIDE, CurvePoint, Earlier, falls_between, far_below, pairs_may_turn_twice
 from mjcont.numerics.step.hermite import hermite_each, mixed, node_windows
 
 # points inside a step at most, and points through which they are interpolated
@@ -68,11 +69,11 @@ class Interior:
 
     def growth(self) -> float:
         """Return the factor by which the error of the interpolated states lets the step grow."""
-        return (_ERROR / max(self.error, 1e-12)) ** 0.25
+        return float((_ERROR / max(self.error, 1e-12)) ** 0.25)
 
     def growth_of_matrices(self) -> float:
         """Return the factor by which the error of interpolated matrices lets the step grow."""
-        return (_RATE / max(self.rate, 1e-6)) ** (1.0 / 3.0)
+        return float((_RATE / max(self.rate, 1e-6)) ** (1.0 / 3.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,8 +106,8 @@ def count_inside(length: float, angle: float, settings: Settings) -> int:
     return math.ceil(min(needed, MOST + 1.0)) if needed > _SLACK else 0
 
 
-def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool) -> list[Interior | str]:
-    """Return the points inside steps that follow each other, up to the first that is refused: a sentence says why.
+def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool) -> list[Interior | Refused]:
+    """Return the points inside steps that follow each other, up to the first that is refused.
 
     The points' tangents and matrices are interpolated, except around what `changed` tells; with `exact` they are
     taken at the interpolated states. Stiff bushes need that: what they push along turns with the mechanism, and
@@ -118,8 +119,9 @@ def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool
     rows = _interpolated(system, gaps)
     if rows.astray < len(gaps):
         found = fill(system, gaps[: rows.astray], settings, exact=exact) if rows.astray else []
-        refused = any(isinstance(f, str) for f in found)
-        return found if refused else [*found, "the polynomial through the points around the step swings"]
+        refused = any(isinstance(f, Refused) for f in found)
+        swings = Refused(Why.SWINGS, "the polynomial through the points around the step swings")
+        return found if refused else [*found, swings]
     first: Array | None = None
     if exact:
         first, rows.jacs = _linearized(system, rows.states, rows.coordinates)
@@ -131,23 +133,23 @@ def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool
     columns = inverse[:, :, -1]
     rows.tangents = columns / np.sqrt((columns * columns).sum(axis=1))[:, None]
     signs, settled, start = np.sign(np.linalg.det(matrix)), list[Interior](), 0
-    refusal: list[str] = []
+    refusal: list[Refused] = []
     for gap, history in zip(gaps, sizes, strict=False):
         part = slice(start, start + gap.count)
         start += gap.count
         if not gap.count:
             settled.append(Interior([]))
         elif not _settled(history):
-            refusal.append("the points within the step do not settle between its ends")
+            refusal.append(Refused(Why.UNSETTLED, "the points within the step do not settle between its ends"))
         elif not errors[part].max() < LARGEST_ERROR:
-            refusal.append("the points within the step stall away from the curve")
+            refusal.append(Refused(Why.STALLED, "the points within the step stall away from the curve"))
         else:
             points = _points(system, rows, part, residuals, errors, signs)
             settled.append(Interior(points, history[0], history[1] / max(history[0], _ROUNDING)))
         if refusal:
             break
     checked = _checked(system, gaps[: len(settled)], settled, settings)
-    complete = len(checked) == len(settled) and not any(isinstance(c, str) for c in checked)
+    complete = len(checked) == len(settled) and not any(isinstance(c, Refused) for c in checked)
     return [*checked, *refusal] if complete else checked
 
 
@@ -240,7 +242,7 @@ def _points(
             rows.states[i], rows.coordinates[i], rows.tangents[i], float(signs[i]), local, rows.jacs[i],
             float(rows.at[i]), float(errors[i]),
         )
-        point.extra["interior"] = True
+        INSIDE.put(point, True)
         points.append(point)
     return points
 
@@ -280,8 +282,8 @@ def _contracting(sizes: list[float], exact: bool) -> bool:
 
 def _checked(
     system: System, gaps: Sequence[Gap], insides: Sequence[Interior], settings: Settings
-) -> list[Interior | str]:
-    """Return the insides with changes told, up to the first step that is refused: a sentence says why."""
+) -> list[Interior | Refused]:
+    """Return the insides with changes told, up to the first step that is refused."""
     if not gaps:
         return []
     every, ends, unsure = [gaps[0].old], [0], [0.0]
@@ -292,12 +294,13 @@ def _checked(
     tangents = np.array([p.tangent for p in every])
     turned = (tangents[1:] * tangents[:-1]).sum(axis=1) < math.cos(settings.angle_max)
     changes, twice = _settled_changes(system, every, tangents[:, system.n].copy(), np.array(unsure))
-    done: list[Interior | str] = []
+    done: list[Interior | Refused] = []
     for inside, first, last in zip(insides, ends, ends[1:], strict=False):
         if inside.points and turned[first:last].any():
-            return [*done, f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg between points"]
+            turn = math.degrees(settings.angle_max)
+            return [*done, Refused(Why.TURNED, f"the tangent turns by more than {turn:.0f} deg between points")]
         if twice[first:last].any():
-            return [*done, "the parameter may turn twice between two points"]
+            return [*done, Refused(Why.TURNS_TWICE, "the parameter may turn twice between two points")]
         for i in np.flatnonzero(changes[first:last]).tolist() if inside.points else ():
             a, b = every[first + i], every[first + i + 1]
             inside.changed.append(i)

@@ -7,8 +7,10 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
+from mjcont.numerics.spectra.stability import COUNT, NEGATIVE
 from mjcont.numerics.step.arclength import CurvePoint, next_step
 from mjcont.numerics.walk.interior import MOST, Gap, Interior, count_inside, fill
 
@@ -56,12 +58,12 @@ class LongSteps:
         """Whether a step is one of several that are taken before they are filled: that pays where they cost little."""
         return h > self.settings.ds_max and not self._exact and self.system.n <= _SMALL
 
-    def inside(self, steps: Sequence[tuple[CurvePoint, CurvePoint]]) -> list[Interior | str]:
-        """Return the points inside steps that follow each other, up to the first refused: a sentence says why."""
+    def inside(self, steps: Sequence[tuple[CurvePoint, CurvePoint]]) -> list[Interior | Refused]:
+        """Return the points inside steps that follow each other, up to the first refused."""
         gaps = [Gap(a, b, count_inside(b.s - a.s, b.angle, self.settings)) for a, b in steps]
         fit = list(itertools.takewhile(lambda g: g.count <= MOST, gaps))
         if not fit:
-            return ["the step needs too many points inside"]
+            return [Refused(Why.CROWDED, "the step needs too many points inside")]
         if not any(g.count for g in fit):
             return [Interior([]) for _ in fit]
         if self._exact:
@@ -71,14 +73,14 @@ class LongSteps:
         # a step without points inside tells nothing of interpolated matrices, even where it is refused
         limits = [self._limit(g, inside) for g, inside in zip(fit, found, strict=False) if g.count]
         self._interpolated = min(limits, default=self._interpolated)
-        again = isinstance(found[0], str) and fit[0].count > 0 and self._exact
+        again = isinstance(found[0], Refused) and fit[0].count > 0 and self._exact
         return fill(self.system, fit[:1], self.settings, exact=True) if again else found
 
     @staticmethod
-    def _limit(gap: Gap, inside: Interior | str) -> float:
+    def _limit(gap: Gap, inside: Interior | Refused) -> float:
         """Return how long steps may be for interpolated matrices, as one step tells."""
         span = gap.new.s - gap.old.s
-        return _SHORTER * span if isinstance(inside, str) else span * inside.growth_of_matrices()
+        return _SHORTER * span if isinstance(inside, Refused) else span * inside.growth_of_matrices()
 
     @property
     def _exact(self) -> bool:
@@ -100,7 +102,9 @@ class LongSteps:
         else:
             return self._apart(new.s - old.s, new.angle, inside.changed, last)
         for i, p in enumerate(inside.points, 1):
-            p.extra["negative"] = p.extra["count"] = before if i < turn else after
+            count = before if i < turn else after
+            NEGATIVE.put(p, count)
+            COUNT.put(p, count)
         return changed
 
     def _apart(self, length: float, angle: float, changed: list[int], last: int) -> list[tuple[int, int]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -28,10 +29,11 @@ class Status(Enum):
 
 @dataclass(frozen=True, slots=True)
 class End:
-    """The end of a curve: a status and a sentence."""
+    """The end of a curve: a status and a sentence; `full_turns` where it closes on itself but for these."""
 
     status: Status
     message: str
+    full_turns: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,16 +45,28 @@ class Step:
     items : points and special points in order, the step's end last.
     next : length of the step after it.
     ending : the end of the curve, if a bound is met at the step's end.
+    neutral : neutral saddles within.
     """
 
     items: list[CurvePoint | Located]
     next: float
     ending: End | None = None
+    neutral: Sequence[Located] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Neutral:
+    """A neutral saddle that a walk passes: two real eigenvalues of opposite sign, no special point."""
+
+    located: Located
+
+
+Item = CurvePoint | Located | Neutral | End
 
 
 @dataclass(frozen=True, slots=True)
 class Leap:
-    """A long step whose inside waits to be filled together with others.
+    """A step that was predicted and corrected, and not yet looked at.
 
     Attributes
     ----------

@@ -1,0 +1,113 @@
+"""A model: equations whose parameters, observables and states have names. A Mechanism and a VectorField are models."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from mjcont.errors import BoundsError, MjcontError, unknown_name
+from mjcont.numerics.equations.problem import Array, Equations, Values
+from mjcont.results.quantities import Observable, Parameter, finite_pair
+
+
+class Model(Equations):
+    """Base class for problems that verbs take and results remember.
+
+    To implement one, follow the steps of `Equations`, and these:
+
+    1. Set the attributes below in the constructor; `parameters` and `observables` may gain entries later.
+    2. Implement the abstract methods.
+    3. Where observables of many states that differ in a parameter are read side by side, override `measure_along`.
+
+    Attributes
+    ----------
+    name : what messages and plots call it.
+    parameters, observables : mappings of name to Parameter and Observable.
+    state_labels : name and unit of each entry of the state.
+    keyframes : mapping of name to state (nq,).
+    mjcf : its MJCF text, which results carry, or None.
+    declared : parameters declared in Python, as results store them.
+    constrained : whether springs stand for constraints, of which results carry notes.
+    """
+
+    name: str
+    parameters: dict[str, Parameter]
+    observables: dict[str, Observable]
+    keyframes: dict[str, Array]
+    mjcf: str | None = None
+    declared: Mapping[str, Any] = {}
+    constrained: bool = False
+
+    @property
+    @abstractmethod
+    def state_labels(self) -> list[tuple[str, str]]:
+        """Name and unit of each entry of the state."""
+
+    @abstractmethod
+    def start_state(self, keyframe: str | None = None, state: Any = None) -> Array:
+        """Return the state given, or a keyframe's, or the model's own, (nq,)."""
+
+    @abstractmethod
+    def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
+        """Return observables, by default all, for states (m, nq), shape (m, number of names)."""
+
+    def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return all observables for states (m, nq), a parameter having a value of its own in each (m,)."""
+        return self.measure(states, [{**values, name: v} for v in column.tolist()])
+
+    def parameter(self, name: str) -> Parameter:
+        """Return the parameter called `name`."""
+        if name not in self.parameters:
+            raise unknown_name("parameter", name, self.parameters)
+        return self.parameters[name]
+
+    def observable(self, name: str) -> Observable:
+        """Return the observable called `name`."""
+        if name not in self.observables:
+            raise unknown_name("observable", name, self.observables)
+        return self.observables[name]
+
+
+def model_of(problem: Equations | None, what: str = "the point") -> Model:
+    """Return the model that a result or a system belongs to.
+
+    Raises
+    ------
+    MjcontError
+        If there is none: the result was loaded from a file without its problem.
+    """
+    if problem is None:
+        raise MjcontError(f"{what} was loaded without its problem: mc.load(path, problem=...)")
+    assert isinstance(problem, Model)
+    return problem
+
+
+def units(problem: Model) -> dict[str, str]:
+    """Return the units of all parameters and observables."""
+    found = {p.name: p.unit for p in problem.parameters.values()}
+    return found | {o.name: o.unit for o in problem.observables.values()}
+
+
+def check_bounds(problem: Model, name: str, bounds: tuple[float, float] | None) -> tuple[float, float]:
+    """Return the bounds of a parameter: those given, or its own.
+
+    Raises
+    ------
+    BoundsError
+        If they are not two increasing finite numbers, or lie outside a control's range.
+    """
+    parameter = problem.parameter(name)
+    if parameter.kind == "switch":
+        raise BoundsError(f"'{name}' is a switch, 0 or 1, and cannot vary along a curve: give it as a start value")
+    if bounds is None:
+        own, hard = parameter.bounds, parameter.hard_bounds
+        return finite_pair(f"bounds of {name}", (max(own[0], hard[0]), min(own[1], hard[1])))
+    low, high = finite_pair(f"bounds of {name}", bounds)
+    hard_low, hard_high = parameter.hard_bounds
+    if low < hard_low or high > hard_high:
+        raise BoundsError(
+            f"bounds ({low:g}, {high:g}) of {name} leave {parameter.limits}: narrow the bounds"
+            + ("" if parameter.springs else " or widen the range in the XML")
+        )
+    return low, high
