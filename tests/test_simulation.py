@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 import reference
+from gears import FIRST
 from scipy.integrate import solve_ivp
-from test_nose_gear_models import damping_forces, forces_at_rest, inertial_forces
 
 import mjcont as mc
 
@@ -37,9 +37,10 @@ def gear_motion(gear, force, times, start):
         q, v = y[:5], y[5:]
         p = {**values, "F_ret": force(t)}
         zero = np.zeros(5)
-        centripetal = inertial_forces(q, v, zero, p)
-        mass = np.column_stack([inertial_forces(q, zero, e, p) for e in np.eye(5)])
-        return np.concatenate([v, np.linalg.solve(mass, forces_at_rest(q, p) + damping_forces(q, v, p) - centripetal)])
+        centripetal = FIRST.inertial_forces(q, v, zero, p)
+        mass = np.column_stack([FIRST.inertial_forces(q, zero, e, p) for e in np.eye(5)])
+        forces = FIRST.forces_at_rest(q, p) + FIRST.damping_forces(q, v, p)
+        return np.concatenate([v, np.linalg.solve(mass, forces - centripetal)])
 
     y0 = np.concatenate([start, np.zeros(5)])
     return solve_ivp(rate, (0, times[-1]), y0, "Radau", times, rtol=1e-7, atol=1e-10).y[:5].T
