@@ -2,26 +2,32 @@
 
 from pathlib import Path
 
+import numpy as np
+
 import mjcont as mc
-from mjcont.drawing.plotting import new_figure, place_labels, save_figure, set_panel_title
+from mjcont.drawing.plotting import mark, new_figure, place_labels, save_figure, set_panel_title
 
 OUT = Path(__file__).parent / "images"
 
 
 def overcentre() -> None:
-    """Draw the overcentre mechanism and a landing gear's crucial fold with its locus."""
+    """Draw the overcentre mechanism, and a landing gear that locks with its three folds and their locus."""
     mechanism = mc.Mechanism.from_xml("overcentre")
     branch = mc.continue_equilibria(mechanism, "F", bounds=(-50, 50), start={"F": 50.0}, ds_max=0.02)
-    gear = mc.Mechanism.from_xml("nose_gear")
-    slices = mc.continue_equilibria(
-        gear, "F_ret", bounds=(3e5, 8e5), start={"F_ret": 4e5}, keyframe="uplock_above", ds_max=0.02
-    )
-    locus = mc.continue_special(slices.point("LP1"), "F_ul", bounds=(-1000, 0), ds_max=0.02)
+    gear = mc.Mechanism.from_xml("nose_gear_locking")
+    bounds = (3e5, 6e5)
+    above = mc.continue_equilibria(gear, "F_ret", bounds, {"F_ret": 4e5}, keyframe="uplock_above", ds_max=0.02)
+    below = mc.continue_equilibria(gear, "F_ret", bounds, {"F_ret": 5.5e5}, keyframe="uplock_below", ds_max=0.02)
+    locus = mc.continue_special(above.point("LP1"), "F_ul", bounds=(-1000, 0), ds_max=0.02)
     figure, axes = new_figure(1, 3, (11.0, 3.6))
     mc.plot(branch, x="F", y="theta_1", ax=axes[0])
-    mc.plot(slices, x="F_ret", y="theta_ov", ax=axes[1])
+    mc.plot(above, below, x="F_ret", y="theta_ov", ax=axes[1], labels=False, legend=False)
+    axes[1].set_xticks(np.linspace(*bounds, 4))
+    names = zip([above.point("LP1"), *reversed(below.of_kind("LP"))], ("FP1", "FP2", "FP3"), strict=True)
+    for fold, name in names:
+        mark(axes[1], fold["F_ret"], np.degrees(fold["theta_ov"]), "LP", name)
     mc.plot(locus, x="F_ul", y="F_ret", ax=axes[2])
-    titles = ("overcentre mechanism", "nose landing gear", "locus of its fold LP1, with the cusp")
+    titles = ("overcentre mechanism", "nose landing gear that locks", "locus of its folds FP1 and FP2")
     for ax, title in zip(axes, titles, strict=True):
         set_panel_title(ax, title)
         place_labels(ax)
