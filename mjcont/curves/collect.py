@@ -174,23 +174,11 @@ def build_branch(
         if at and s is not None:
             words[i], counts[i] = verdict_at(KINDS[at].holds, s)
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
-    base = rows.values(0)
-    lead = system.names[0]
-    if len(system.free) == 1 and lead in problem.parameters:
-        measured = problem.measure_along(states, base, lead, rows.column(0))
-    else:
-        measured = problem.measure(states, [rows.values(i) for i in range(len(rows))])
-    unit_of = units(problem)
-    columns = {
-        p.name: Column(p.name, unit_of[p.name], "parameter", _frozen(rows.column(i))) for i, p in enumerate(system.free)
-    }
-    for k, name in enumerate(problem.observables):
-        if name not in columns:
-            columns[name] = Column(name, unit_of[name], "observable", _frozen(measured[:, k]))
+    base, unit_of = rows.values(0), units(problem)
     branch = Branch(
         kind=kind,
         name=problem.name,
-        columns=columns,
+        columns=_columns(rows, problem, unit_of),
         states=_frozen(states),
         state_labels=problem.state_labels,
         eigenvalues=_eigenvalues(rows, spectra),  # type: ignore[arg-type]
@@ -217,6 +205,22 @@ def build_branch(
     object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows.located, spectra)))
     object.__setattr__(branch, "start", _describe_start(branch, origin))
     return branch
+
+
+def _columns(rows: CurveRows, problem: Model, unit_of: Mapping[str, str]) -> dict[str, Column]:
+    """Return the columns of a branch: the free parameters, and the observables that have another name."""
+    system, base, lead = rows.system, rows.values(0), rows.system.names[0]
+    if len(system.free) == 1 and lead in problem.parameters:
+        measured = problem.measure_along(rows.states, base, lead, rows.column(0))
+    else:
+        measured = problem.measure(rows.states, [rows.values(i) for i in range(len(rows))])
+    columns = {
+        p.name: Column(p.name, unit_of[p.name], "parameter", _frozen(rows.column(i))) for i, p in enumerate(system.free)
+    }
+    for k, name in enumerate(problem.observables):
+        if name not in columns:
+            columns[name] = Column(name, unit_of[name], "observable", _frozen(measured[:, k]))
+    return columns
 
 
 def _kind_at(curve: str, special: Located | None) -> str:

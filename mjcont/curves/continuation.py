@@ -11,11 +11,12 @@ import numpy as np
 from mjcont.curves.collect import Progress, collect, make_point, run_directions, special_point
 from mjcont.curves.walkers import equilibrium_walker, monitor_of, point_stop
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import LARGEST_ERROR, Corrected, Start, find_start, solve
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import make_settings
-from mjcont.numerics.equations.system import Free, System
+from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.events import Located, ScalarZero
 from mjcont.numerics.points.on_equilibria import square_system
 from mjcont.numerics.step.arclength import CurvePoint, first_point

@@ -11,11 +11,12 @@ from mjcont.curves.collect import Progress, build_branch, completed, ordered_row
 from mjcont.curves.continuation import continue_equilibria, find_equilibrium
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import correct, solve
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings, make_settings
-from mjcont.numerics.equations.system import Free, System
+from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.walk.steps import End, Status

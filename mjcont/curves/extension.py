@@ -13,10 +13,11 @@ from mjcont.curves.collect import Progress, build_branch, completed, ordered_row
 from mjcont.curves.loci import default_ends, locus_detectors
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings, make_settings
-from mjcont.numerics.equations.system import Free, Local, System
+from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.points.kinds import conditions_of
 from mjcont.numerics.points.on_equilibria import critical_square

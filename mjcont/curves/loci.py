@@ -12,8 +12,9 @@ from mjcont.curves.collect import Progress, collect, run_directions
 from mjcont.curves.continuation import check_direction, hold_rigid_modes
 from mjcont.curves.walkers import monitor_of
 from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.settings import Settings, make_settings
-from mjcont.numerics.equations.system import Free, Local, System
+from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Detector
 from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of
 from mjcont.numerics.points.on_equilibria import zero_detector

@@ -20,10 +20,11 @@ from mjcont.curves.walkers import monitor_of
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.numerics.equations.bordered import Factored, oriented
 from mjcont.numerics.equations.defining import Fold, Transversality
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import Corrected, solve
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
-from mjcont.numerics.equations.system import Free, Local, System
+from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points import normalform
 from mjcont.numerics.points.events import ScalarZero
 from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of, name_of

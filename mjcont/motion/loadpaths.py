@@ -22,9 +22,10 @@ from mjcont.motion.escape import Landing, escape
 from mjcont.motion.legs import FRACTION, Leg, unwrapped
 from mjcont.numerics.equations.algebra import eigenvectors, singular, solve
 from mjcont.numerics.equations.bordered import oriented
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.settings import Settings, make_settings
-from mjcont.numerics.equations.system import Free, Local, System
+from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint

@@ -12,8 +12,9 @@ import pytest
 import mjcont as mc
 from mjcont.mechanism.evaluation import Evaluator
 from mjcont.numerics.equations.differences import CENTRED, PARAMETER, kept_within
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.settings import Settings
-from mjcont.numerics.equations.system import Free, System
+from mjcont.numerics.equations.system import System
 from mjcont.numerics.step.arclength import CurvePoint, Earlier, predict
 from mjcont.numerics.step.hermite import node_windows
 from mjcont.numerics.walk.interior import Gap, fill

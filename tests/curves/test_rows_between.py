@@ -15,8 +15,9 @@ from mjcont.curves.collect import ordered_rows, run_directions
 from mjcont.curves.rows import curve_rows
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.numerics.equations.algebra import inverses
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.settings import Settings
-from mjcont.numerics.equations.system import Free, System
+from mjcont.numerics.equations.system import System
 
 
 def distances(points, polyline):

@@ -19,8 +19,8 @@ from problems.ziegler import column_branch
 
 import mjcont as mc
 from mjcont.curves.loci import CODIMENSION, locus_system
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import solve
-from mjcont.numerics.equations.system import Free
 
 WEIGHTS = {1: 2.0 / 3.0, -1: -2.0 / 3.0, 2: -1.0 / 12.0, -2: 1.0 / 12.0}
 

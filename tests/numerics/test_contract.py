@@ -9,10 +9,11 @@ import pytest
 
 import mjcont as mc
 from mjcont.numerics.equations.differences import CENTRED
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Equations, Linearization, Pencil
 from mjcont.numerics.equations.refusals import Why
 from mjcont.numerics.equations.settings import Settings
-from mjcont.numerics.equations.system import Free, System
+from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, found_on
 from mjcont.numerics.step.arclength import first_point
 from mjcont.results.model import Model

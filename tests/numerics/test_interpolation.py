@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 import mjcont as mc
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.settings import Settings
-from mjcont.numerics.equations.system import Free, System
-from mjcont.numerics.step.arclength import falls_between, far_below, first_point, pairs_may_turn_twice
+from mjcont.numerics.equations.system import System
+from mjcont.numerics.step.arclength import first_point
 from mjcont.numerics.step.hermite import combine, hermite, hermite_each, lagrange, lagrange_each, mixed
+from mjcont.numerics.step.turning import falls_between, far_below, pairs_may_turn_twice
 
 NODES = np.array([[0.0, 0.3, -0.2, 0.7], [0.1, -0.4, 0.25, 0.9]])
 AT = np.array([0.15, 0.6])

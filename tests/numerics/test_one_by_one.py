@@ -10,8 +10,9 @@ import pytest
 
 import mjcont as mc
 from mjcont.curves.walkers import equilibrium_walker
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.settings import Settings
-from mjcont.numerics.equations.system import Free, System
+from mjcont.numerics.equations.system import System
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.filled import Filled
 from mjcont.numerics.walk.onebyone import OneByOne

@@ -12,12 +12,13 @@ from scipy import sparse
 import mjcont as mc
 from mjcont.curves.walkers import equilibrium_detectors
 from mjcont.numerics.equations import adjoint, algebra, bordered, defining, differences, newton, settings, system
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Pencil
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.points import codim2, corner, events, kinds, normalform, on_equilibria, on_loci
 from mjcont.numerics.search import box, coordinates, creep, deflation, multistart, spanning
 from mjcont.numerics.spectra import spectrum, stability
-from mjcont.numerics.step import arclength, hermite, notes
+from mjcont.numerics.step import arclength, hermite, notes, turning
 from mjcont.numerics.walk import between, filled, interior, longsteps, onebyone, trace
 from mjcont.numerics.walk.steps import End
 
@@ -52,7 +53,7 @@ class Bad:
     v = property(lambda self: np.ones(self.n))
     values = property(lambda self: self.problem.values())
     settings = property(lambda self: settings.Settings())
-    free = property(lambda self: system.Free("p", -1.0, 1.0))
+    free = property(lambda self: Free("p", -1.0, 1.0))
     corrected = property(lambda self: newton.Corrected(self.x, self.y, self.local, None, 0, 0.0, 0.0, 0.0))
 
     @cached_property
@@ -109,7 +110,7 @@ class Bad:
 
     def hopf_system(self):
         full = system.System(
-            self.problem, self.values, [self.free, system.Free("q", 0.0, 2.0)], [defining.Hopf(self.local, 1.0)], True
+            self.problem, self.values, [self.free, Free("q", 0.0, 2.0)], [defining.Hopf(self.local, 1.0)], True
         )
         return full, full.conditions[0]
 
@@ -169,16 +170,16 @@ CASES = {
     "arclength.advance": lambda b: arclength.advance(b.system, b.point(), 0.1, b.settings),
     "arclength.next_step": lambda b: arclength.next_step(0.1, b.point(), b.settings),
     "arclength.follows": lambda b: arclength.follows(*b.pair),
-    "arclength.may_turn_twice": lambda b: arclength.may_turn_twice(b.system, *b.pair, 0),
-    "arclength.far_below": lambda b: arclength.far_below(np.zeros(1)),
-    "arclength.pairs_may_turn_twice": lambda b: arclength.pairs_may_turn_twice(np.zeros(2), np.zeros(2), np.zeros(2)),
-    "arclength.falls_between": lambda b: arclength.falls_between(b.system, *b.pair),
-    "arclength.turning_fraction": lambda b: arclength.turning_fraction(b.system, *b.pair, 0),
+    "turning.may_turn_twice": lambda b: turning.may_turn_twice(b.system, *b.pair, 0),
+    "turning.far_below": lambda b: turning.far_below(np.zeros(1)),
+    "turning.pairs_may_turn_twice": lambda b: turning.pairs_may_turn_twice(np.zeros(2), np.zeros(2), np.zeros(2)),
+    "turning.falls_between": lambda b: turning.falls_between(b.system, *b.pair),
+    "turning.turning_fraction": lambda b: turning.turning_fraction(b.system, *b.pair, 0),
     "arclength.by_contraction": lambda b: arclength.by_contraction(b.point()),
     "arclength.turned_back": lambda b: arclength.turned_back(b.system, [b.point()]),
     "arclength.land": lambda b: arclength.land(b.system, b.point(), 0, 0.5, 0.1, b.settings),
     "arclength.aim": lambda b: arclength.aim(b.system, b.point(), 0.1, np.zeros(b.n + 1), steady=True),
-    "arclength.may_turn_beyond": lambda b: arclength.may_turn_beyond(b.system, *b.pair),
+    "turning.may_turn_beyond": lambda b: turning.may_turn_beyond(b.system, *b.pair),
     "between.rows_between": lambda b: None if b.sparse else between.rows_between(b.system, b.pair, 1e-6),
     "bordered.largest_in_rows": lambda b: bordered.largest_in_rows(b.matrix),
     "bordered.row_scale": lambda b: bordered.row_scale(b.matrix),
@@ -333,7 +334,7 @@ PLAIN = {
     "problem.Stencil", "problem.Varied", "refusals.Refused", "refusals.Why", "settings.Settings",
     "settings.check_numbers", "settings.make_settings",
     "spectrum.Spectrum", "steps.Status", "steps.End", "steps.Step", "steps.Neutral", "steps.Leap",
-    "system.Free", "system.Local", "system.Condition", "trace.Trace",
+    "free.Free", "system.Local", "system.Condition", "trace.Trace",
 }  # fmt: skip
 BAD = [Bad(kind, n, s) for kind in FIELDS for n in (1, 2) for s in (False, True)]
 

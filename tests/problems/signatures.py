@@ -16,7 +16,7 @@ import numpy as np
 
 import mjcont as mc
 from mjcont.curves.diagram import Diagram
-from mjcont.numerics.equations.system import Free
+from mjcont.numerics.equations.free import Free
 from mjcont.results.loadpaths import LoadPath
 from mjcont.results.search import Equilibria
 

@@ -25,8 +25,9 @@ from scipy import sparse
 from mjcont.numerics.equations.algebra import singular
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, row_scale
 from mjcont.numerics.equations.differences import bilinear_gradient, directional, second_form
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
-from mjcont.numerics.equations.system import ROW_GUARD, Condition, Free, Local, System, equation_scale
+from mjcont.numerics.equations.system import ROW_GUARD, Condition, Local, System, equation_scale
 
 _SLOW_TIME = 0.1
 # rates below this, in 1/s, count as it: their squares are numbers still

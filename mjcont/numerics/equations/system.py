@@ -11,16 +11,15 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.equations.bordered import border, largest_in_rows
+from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array, Equations, Linearization, Pencil, Ranges, Values
 
-_LOG_SPAN = 1e3
 _GRADIENT_STEP = 1e-3
 _SLOPE_STEP = 5e-3  # the noise of a condition with stiff bushes over it and the truncation balance there
 # a row of J may vanish at a special point: it must not be blown up on the way there
@@ -28,57 +27,6 @@ ROW_GUARD = 1e-3
 _VANISHES = 1e-10
 _EVERYWHERE = (-math.inf, math.inf)
 _BATCHES = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
-
-
-@dataclass(frozen=True, slots=True)
-class Free:
-    """A free parameter and its coordinate: linear, or logarithmic where positive bounds span three decades.
-
-    `bounded` says whether it is kept within its bounds, or these only tell its size.
-    """
-
-    name: str
-    low: float
-    high: float
-    unit: str = ""
-    bounded: bool = True
-
-    def show(self, value: float) -> str:
-        """Return a value as a sentence shows it, radians in degrees."""
-        return f"{math.degrees(value):.6g} deg" if self.unit == "rad" else f"{value:.6g} {self.unit}".rstrip()
-
-    @property
-    def log(self) -> bool:
-        """Whether the coordinate is logarithmic."""
-        return self.low > 0 and self.high / self.low >= _LOG_SPAN
-
-    def coordinate(self, value: float) -> float:
-        """Return the coordinate of a value."""
-        if self.log:
-            return math.log(value) / math.log(self.high / self.low)
-        return value / (self.high - self.low)
-
-    def value(self, coordinate: float) -> float:
-        """Return the value at a coordinate."""
-        if self.log:
-            value = math.exp(min(coordinate * math.log(self.high / self.low), 700.0))
-        else:
-            value = coordinate * (self.high - self.low)
-        return min(max(value, self.low), self.high) if self.bounded else value  # no bound is left by rounding
-
-    def values(self, coordinates: Array) -> Array:
-        """Return the values at many coordinates."""
-        if self.log:
-            values = np.exp(np.minimum(coordinates * math.log(self.high / self.low), 700.0))
-        else:
-            values = coordinates * (self.high - self.low)
-        return values.clip(self.low, self.high) if self.bounded else values
-
-    def slope(self, coordinate: float) -> float:
-        """Return d value / d coordinate."""
-        if self.log:
-            return self.value(coordinate) * math.log(self.high / self.low)
-        return self.high - self.low
 
 
 class Local:

@@ -30,7 +30,8 @@ from mjcont.numerics.points.events import (
 )
 from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum, negative_stiffness, spectrum_of
-from mjcont.numerics.step.arclength import BEFORE, CurvePoint, advance, turning_fraction
+from mjcont.numerics.step.arclength import BEFORE, CurvePoint, advance
+from mjcont.numerics.step.turning import turning_fraction
 
 _NOT_TRANSVERSE = 1e-6
 # the unfolding of a true branch point vanishes with the square of the error of its location

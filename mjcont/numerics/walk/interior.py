@@ -22,8 +22,9 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System, equation_sizes
-from mjcont.numerics.step.arclength import INSIDE, CurvePoint, Earlier, falls_between, far_below, pairs_may_turn_twice
+from mjcont.numerics.step.arclength import INSIDE, CurvePoint, Earlier
 from mjcont.numerics.step.hermite import hermite_each, mixed, node_windows
+from mjcont.numerics.step.turning import falls_between, far_below, pairs_may_turn_twice
 
 # points inside a step at most, and points through which they are interpolated
 MOST, _NODES = 95, 6

@@ -14,18 +14,8 @@ from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.corner import NEAR, cross
 from mjcont.numerics.points.events import Detector, Found, Located
-from mjcont.numerics.step.arclength import (
-    CurvePoint,
-    advance,
-    aim,
-    by_contraction,
-    follows,
-    land,
-    may_turn_beyond,
-    may_turn_twice,
-    next_step,
-    predict,
-)
+from mjcont.numerics.step.arclength import CurvePoint, advance, aim, by_contraction, follows, land, next_step, predict
+from mjcont.numerics.step.turning import may_turn_beyond, may_turn_twice
 from mjcont.numerics.walk.steps import End, Leap, Status, Step
 
 # below this step a pair of folds, or a fold beyond a bound, is not looked for between two points
