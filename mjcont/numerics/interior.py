@@ -111,6 +111,8 @@ def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool
     taken at the interpolated states. Stiff bushes need that: what they push along turns with the mechanism, and
     interpolation errs by stiffness times the square of the angle by which it misses.
     """
+    if not any(g.count for g in gaps):
+        return _checked(system, gaps, [Interior([]) for _ in gaps], settings)
     n = system.n
     rows = _interpolated(system, gaps)
     if rows.astray < len(gaps):
