@@ -22,7 +22,7 @@ import numpy as np
 from mjcont.errors import ParameterError
 from mjcont.impedance import impedance, is_constant, least_time_constant, reference_constants, standard_form
 from mjcont.quantities import Target
-from mjcont.quiet import quiet_data
+from mjcont.quiet import quiet, quiet_data
 
 _EQ, _OBJ = mujoco.mjtEq, mujoco.mjtObj
 KINDS = {_EQ.mjEQ_CONNECT: "connect", _EQ.mjEQ_WELD: "weld", _EQ.mjEQ_JOINT: "joint", _EQ.mjEQ_TENDON: "tendon"}
@@ -205,7 +205,8 @@ def _weights(model: mujoco.MjModel, equality: int) -> list[float]:
 def _exact_weights(model: mujoco.MjModel, equality: int) -> list[float]:
     """Return the largest A that MuJoCo computes at qpos0 for the directions of an equality."""
     data = quiet_data(model)
-    mujoco.mj_forward(model, data)
+    with quiet:
+        mujoco.mj_forward(model, data)
     rows = (data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY) & (data.efc_id == equality)
     weights = data.efc_diagA[rows]
     return [float(block.max()) for block in np.split(weights, max(1, len(weights) // 3))]

@@ -8,7 +8,7 @@ import numpy as np
 from mjcont.dampers import Dampers
 from mjcont.kinks import Kinks
 from mjcont.numerics.problem import Array
-from mjcont.quiet import Warned
+from mjcont.quiet import Warned, quiet
 from mjcont.rows import ConstrainedRows, Rows
 from mjcont.writer import FieldWriter
 
@@ -106,7 +106,8 @@ class Evaluator:
         """Return data of our own with everything that depends on position computed."""
         self.writer.inputs.put(self._data)
         self._data.qpos[:] = x
-        mujoco.mj_fwdPosition(self.model, self._data)
+        with quiet:
+            mujoco.mj_fwdPosition(self.model, self._data)
         return self._data
 
     def mass(self, x: Array) -> Array:

@@ -14,7 +14,7 @@ from mjcont.errors import ModelError, ModelWarning, ParameterError
 from mjcont.inputs import actuator_name, follower, integrator
 from mjcont.paths import field_array
 from mjcont.quantities import FRICTION, LARGEST
-from mjcont.quiet import quiet_data
+from mjcont.quiet import quiet, quiet_data
 
 _DISABLE = mujoco.mjtDisableBit
 _OBJ = mujoco.mjtObj
@@ -67,7 +67,8 @@ def refuse_invalid(model: mujoco.MjModel) -> None:
     if wrong:
         raise ModelError(wrong)
     data = quiet_data(model)
-    mujoco.mj_fwdPosition(model, data)
+    with quiet:
+        mujoco.mj_fwdPosition(model, data)
     mass = np.empty((model.nv, model.nv))
     mujoco.mj_fullM(model, data, mass)
     for dof in np.flatnonzero(~(np.diag(mass) >= mujoco.mjMINVAL)):

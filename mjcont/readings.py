@@ -11,7 +11,7 @@ import numpy as np
 from mjcont.errors import unknown_name
 from mjcont.numerics.problem import Array, Values
 from mjcont.quantities import Observable, Parameter
-from mjcont.quiet import quiet_data
+from mjcont.quiet import quiet, quiet_data
 from mjcont.rows import Rows
 from mjcont.writer import FieldWriter
 
@@ -51,7 +51,8 @@ class Readings:
             data.qpos[:] = x
             data.qvel[:] = 0.0 if velocities is None else velocities[i]
             self._writer.inputs.put(data)
-            mujoco.mj_forward(self._model, data)
+            with quiet:
+                mujoco.mj_forward(self._model, data)
             out[i] = [o.function(self._model, data) for o in chosen]
         return out
 
