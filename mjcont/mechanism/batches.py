@@ -10,7 +10,7 @@ from mujoco.batch import Batch
 
 from mjcont.mechanism.kinks import Kinks, codes_at, element_name
 from mjcont.mechanism.writer import FieldWriter
-from mjcont.models.quiet import Warned
+from mjcont.models.quiet import Warned, quiet
 from mjcont.numerics.equations.problem import Array
 
 _CONTACT = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)
@@ -101,19 +101,20 @@ class ConstrainedRows:
         out = np.empty((len(qpos), m.nv))
         self.sides = []
         writer.inputs.put(d)
-        for i, x in enumerate(qpos):
-            d.qpos[:] = x
-            d.qvel[:] = 0.0 if qvel is None else qvel[i]
-            d.qacc[:] = 0.0 if qacc is None else qacc[i]
-            mujoco.mj_inverse(m, d)
-            mujoco.mj_fwdActuation(m, d)
-            side = load_side(m, d)
-            self.sides.append(side if self._kinks is None else side + codes_at(self._kinks, m, d).tobytes())
-            out[i] = d.qfrc_actuator - d.qfrc_inverse
-            if d.ncon and (qvel is not None or qacc is not None):
-                out[i] -= _contact_friction(m, d)
-            if self._warned.spoilt() is not None:
-                out[i] = np.nan
+        with quiet:  # of constraints MuJoCo also warns without counting
+            for i, x in enumerate(qpos):
+                d.qpos[:] = x
+                d.qvel[:] = 0.0 if qvel is None else qvel[i]
+                d.qacc[:] = 0.0 if qacc is None else qacc[i]
+                mujoco.mj_inverse(m, d)
+                mujoco.mj_fwdActuation(m, d)
+                side = load_side(m, d)
+                self.sides.append(side if self._kinks is None else side + codes_at(self._kinks, m, d).tobytes())
+                out[i] = d.qfrc_actuator - d.qfrc_inverse
+                if d.ncon and (qvel is not None or qacc is not None):
+                    out[i] -= _contact_friction(m, d)
+                if self._warned.spoilt() is not None:
+                    out[i] = np.nan
         return out
 
     def accelerations(self, qpos: Array, qvel: Array, writer: FieldWriter) -> Array:
@@ -121,10 +122,11 @@ class ConstrainedRows:
         m, d = self._model, self._data
         out = np.empty((len(qpos), m.nv))
         writer.inputs.put(d)
-        for i, x in enumerate(qpos):
-            d.qpos[:], d.qvel[:], d.qacc_warmstart[:] = x, qvel[i], 0.0
-            mujoco.mj_forward(m, d)
-            out[i] = d.qacc if self._warned.spoilt() is None else np.nan
+        with quiet:
+            for i, x in enumerate(qpos):
+                d.qpos[:], d.qvel[:], d.qacc_warmstart[:] = x, qvel[i], 0.0
+                mujoco.mj_forward(m, d)
+                out[i] = d.qacc if self._warned.spoilt() is None else np.nan
         return out
 
     def active(self, x: Array, writer: FieldWriter) -> frozenset[str]:
@@ -132,7 +134,8 @@ class ConstrainedRows:
         m, d = self._model, self._data
         writer.inputs.put(d)
         d.qpos[:], d.qvel[:], d.qacc[:] = x, 0.0, 0.0
-        mujoco.mj_inverse(m, d)
+        with quiet:
+            mujoco.mj_inverse(m, d)
         found = frozenset(_loaded(m, d))
         if self._kinks is None:
             return found

@@ -9,7 +9,7 @@ from mjcont.mechanism.batches import ConstrainedRows, Rows
 from mjcont.mechanism.kinks import Kinks
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.models.features import passive
-from mjcont.models.quiet import Warned
+from mjcont.models.quiet import Warned, quiet
 from mjcont.numerics.equations.problem import Array
 
 _DISABLE = mujoco.mjtDisableBit
@@ -107,7 +107,8 @@ class Evaluator:
         """Return data of our own with everything that depends on position computed."""
         self.writer.inputs.put(self._data)
         self._data.qpos[:] = x
-        mujoco.mj_fwdPosition(self.model, self._data)
+        with quiet:
+            mujoco.mj_fwdPosition(self.model, self._data)
         return self._data
 
     def mass(self, x: Array) -> Array:

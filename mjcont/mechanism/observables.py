@@ -18,7 +18,7 @@ from mjcont.errors import unknown_name
 from mjcont.mechanism.batches import Rows
 from mjcont.mechanism.declarations import declarations
 from mjcont.mechanism.writer import FieldWriter
-from mjcont.models.quiet import quiet_data
+from mjcont.models.quiet import quiet, quiet_data
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.results.quantities import Observable, Parameter
 
@@ -139,7 +139,8 @@ class Readings:
             data.qpos[:] = x
             data.qvel[:] = 0.0 if velocities is None else velocities[i]
             self._writer.inputs.put(data)
-            mujoco.mj_forward(self._model, data)
+            with quiet:
+                mujoco.mj_forward(self._model, data)
             out[i] = [o.function(self._model, data) for o in chosen]
         return out
 

@@ -21,7 +21,7 @@ import numpy as np
 
 from mjcont.errors import ParameterError
 from mjcont.models.impedance import impedance, is_constant, least_time_constant, reference_constants, standard_form
-from mjcont.models.quiet import quiet_data
+from mjcont.models.quiet import quiet, quiet_data
 from mjcont.results.quantities import Target
 
 _EQ, _OBJ = mujoco.mjtEq, mujoco.mjtObj
@@ -205,7 +205,8 @@ def _weights(model: mujoco.MjModel, equality: int) -> list[float]:
 def _exact_weights(model: mujoco.MjModel, equality: int) -> list[float]:
     """Return the largest A that MuJoCo computes at qpos0 for the directions of an equality."""
     data = quiet_data(model)
-    mujoco.mj_forward(model, data)
+    with quiet:
+        mujoco.mj_forward(model, data)
     rows = (data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY) & (data.efc_id == equality)
     weights = data.efc_diagA[rows]
     return [float(block.max()) for block in np.split(weights, max(1, len(weights) // 3))]

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import ModelError
-from mjcont.models.quiet import quiet_data
+from mjcont.models.quiet import quiet, quiet_data
 from mjcont.models.states import element_name, field_array
 from mjcont.results.quantities import LARGEST
 
@@ -61,7 +61,8 @@ def refuse_invalid(model: mujoco.MjModel) -> None:
     if wrong:
         raise ModelError(wrong)
     data = quiet_data(model)
-    mujoco.mj_fwdPosition(model, data)
+    with quiet:
+        mujoco.mj_fwdPosition(model, data)
     mass = np.empty((model.nv, model.nv))
     mujoco.mj_fullM(model, data, mass)
     for dof in np.flatnonzero(~(np.diag(mass) >= mujoco.mjMINVAL)):

@@ -17,7 +17,7 @@ import numpy as np
 
 from mjcont.models.actuators import is_bush
 from mjcont.models.equalities import KINDS, equality_name
-from mjcont.models.quiet import quiet_data
+from mjcont.models.quiet import quiet, quiet_data
 
 _JOINT, _EQ, _OBJ = mujoco.mjtJoint, mujoco.mjtEq, mujoco.mjtObj
 _DISABLE = mujoco.mjtDisableBit
@@ -283,7 +283,8 @@ def _posed(model: mujoco.MjModel, qpos: np.ndarray | None) -> mujoco.MjData:
     data = quiet_data(private)
     if qpos is not None:
         data.qpos[:] = qpos
-    mujoco.mj_forward(private, data)
+    with quiet:
+        mujoco.mj_forward(private, data)
     return data
 
 
@@ -304,7 +305,8 @@ def gap(model: mujoco.MjModel, closure: Closure, qpos: np.ndarray | None = None)
     data = quiet_data(model)
     if qpos is not None:
         data.qpos[:] = qpos
-    mujoco.mj_fwdPosition(model, data)
+    with quiet:
+        mujoco.mj_fwdPosition(model, data)
     if closure.elastic:
         sites = model.actuator_trnid[closure.index]
         elements = [a for a in bush_elements(model) if np.array_equal(model.actuator_trnid[a], sites)]

@@ -197,7 +197,8 @@ def _one_piece(mechanism: Mechanism, model: mujoco.MjModel, inputs: DataInputs, 
     for phase in (0.0, 1.0, 1.0j, -1.0, -1.0j):
         away = phase * math.exp(_E_FOLDS) * q
         data.qpos[:], data.qvel[:] = mechanism.retract(x, away.real), (s * away).real
-        mujoco.mj_forward(model, data)
+        with quiet:
+            mujoco.mj_forward(model, data)
         sides.add(load_side(model, data))
     return len(sides) == 1
 

@@ -178,6 +178,15 @@ def test_a_polynomial_that_swings_is_refused_before_anything_is_evaluated():
     assert field.evaluations == 0
 
 
+@pytest.mark.parametrize("exact", [False, True])
+def test_steps_without_points_inside_need_none(exact: bool) -> None:
+    field = mc.VectorField(lambda u, p: [p["a"]], [0.0], {"a": 0.0})
+    system = System(field, {"a": 0.0}, [Free("a", -10.0, 10.0)])
+    old = curve_point(0.0, 0.0, 0.0, ())
+    new = curve_point(1.0, 0.0, 0.0, (Earlier(0.0, np.array([-1.0, 0.0]), old.tangent, old.jac),))
+    assert [i.points for i in fill(system, [Gap(old, new, 0)], Settings(), exact=exact)] == [[]]  # type: ignore[union-attr]
+
+
 def test_a_long_prediction_that_swings_goes_through_fewer_points():
     before = Earlier(-0.03, np.array([-0.03, 0.0]), np.array([-1e3, 1.0]), np.array([[0.0, 1.0]]))
     assert predict(curve_point(0.0, 0.0, 0.0, (before,)), 0.5, steady=True) == pytest.approx([0.5, 0.0])

@@ -92,7 +92,29 @@ def softened() -> None:
     mc.add_bushes(WARNING, ["q"], stiffness=1e5)
 
 
-@pytest.mark.parametrize("verb", [wild_motion, wild_escape, massless, wild_search, edited, softened])
+def strange_stop() -> None:
+    """Of reference constants of mixed signs MuJoCo warns in every evaluation of the constraint."""
+    mechanism = mc.Mechanism.from_xml(STOP.replace("limited", 'solreflimit="0.05 -1" limited'))
+    branch = mc.continue_equilibria(mechanism, "M", bounds=(-3.0, 3.0))
+    mc.verify_stability(branch, n=2)
+    mc.simulate(mechanism, {"M": 2.0}, duration=0.1)
+    mc.load_path(mechanism, [{"M": 0.0}, {"M": 3.0}])
+    mc.find_equilibria(mechanism, {"M": 2.0}, starts=5)
+
+
+def strange_joint() -> None:
+    mechanism = mc.Mechanism.from_xml(
+        PLAIN.replace("</worldbody>", '</worldbody><equality><joint joint1="q" solref="0.05 -1"/></equality>')
+    )
+    mechanism.measure(mechanism.qpos0[None], mechanism.values())
+    assert str(mechanism)
+    mc.continue_equilibria(mechanism, "M", bounds=(-1.0, 1.0))
+
+
+VERBS = [wild_motion, wild_escape, massless, wild_search, edited, softened, strange_stop, strange_joint]
+
+
+@pytest.mark.parametrize("verb", VERBS)
 def test_no_verb_lets_mujoco_speak(verb: Callable[[], None]) -> None:
     verb()
 
