@@ -13,6 +13,7 @@ import mjcont as mc
 from mjcont.mechanism.evaluation import Evaluator
 from mjcont.numerics.equations.differences import CENTRED, PARAMETER, kept_within
 from mjcont.numerics.equations.free import Free
+from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.step.arclength import CurvePoint, Earlier, predict
@@ -172,9 +173,10 @@ def test_a_polynomial_that_swings_is_refused_before_anything_is_evaluated():
     before = Earlier(-0.03, np.array([-0.03, 0.0]), np.array([-1e3, 1.0]), np.array([[0.0, 1.0]]))
     old = curve_point(0.0, 0.0, 0.0, (before,))
     new = curve_point(1.0, 0.0, 0.0, (Earlier(0.0, np.array([-1.0, 0.0]), old.tangent, old.jac), before))
-    assert fill(system, [Gap(old, new, 3)], Settings(), exact=False) == [
-        "the polynomial through the points around the step swings"
-    ]
+    (refused,) = fill(system, [Gap(old, new, 3)], Settings(), exact=False)
+    assert isinstance(refused, Refused)
+    assert refused.why is Why.SWINGS
+    assert refused.message == "the polynomial through the points around the step swings"
     assert field.evaluations == 0
 
 

@@ -148,7 +148,7 @@ def test_rows_on_both_sides_of_a_double_crossing_have_the_stability_of_their_sid
     mechanism = mc.Mechanism.from_xml(CROSSED)
     x, values = mechanism.start_state(), mechanism.values({"P": 0.0})
     system = System(mechanism, values, [Free("P", 0.0, 2.0)])
-    walker = equilibrium_walker(system, Settings(), [], {})
+    walker = equilibrium_walker(system, Settings(), {})
     (run,) = run_directions(walker, x, system.start_y(), (1.0,), None)
     assert [e.kind for e in run.special] == ["BP"]
     rows = curve_rows(system, [r for r in ordered_rows(run) if told or r[1] is None], 1e-6)
