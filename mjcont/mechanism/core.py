@@ -22,8 +22,8 @@ _DISABLE = mujoco.mjtDisableBit
 ENGINE = frozenset(
     """
     active admissible constrained difference_each failure first_order held holding linearize_along measure_along
-    nonsmooth own_jacobian parameter_stencil passive pencils periods residuals residuals_along retract_each rigid_directions
-    rigid_modes second_order side_by_side writer
+    nonsmooth own_jacobian parameter_stencil passive pencils periods residuals residuals_along retract_each
+    rigid_directions rigid_modes second_order side_by_side writer
     """.split()
 )
 
