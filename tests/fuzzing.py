@@ -13,7 +13,7 @@ from scipy import sparse
 import mjcont as mc
 
 NASTY = (0.0, -0.0, 1e-300, -1e-12, 1e-9, 1.0, -3.0, 1e6, 1e12, 1e300, -1e300, math.nan, math.inf, -math.inf)
-SHORT = {"max_points": 25, "max_seconds": 5.0}
+SHORT = {"max_points": 12, "max_seconds": 3.0}
 
 
 def run(seed):
@@ -115,9 +115,10 @@ def part(rng, i, kind):
     axis = ["1 0 0", "0 1 0", "0 0 1"][int(rng.integers(3))]
     stop = 'range="-30 40"' if rng.random() < 0.2 and kind in ("hinge", "slide") else ""
     attributes = f'type="{kind}" axis="{axis}" stiffness="{spring:g}" damping="{damping:g}" {stop}'
-    attributes = 'type="free"' if kind == "free" else attributes if kind != "ball" else f'type="ball" stiffness="{spring:g}"'
+    attributes = {"free": 'type="free"', "ball": f'type="ball" stiffness="{spring:g}"'}.get(kind, attributes)
     mass = 10.0 ** rng.integers(-6, 4)
-    geom = f'<geom type="capsule" fromto="0 0 0 {rng.normal():.3g} 0 {0.1 + abs(rng.normal()):.3g}" size=".03" mass="{mass:g}"/>'
+    end = f"{rng.normal():.3g} 0 {0.1 + abs(rng.normal()):.3g}"
+    geom = f'<geom type="capsule" fromto="0 0 0 {end}" size=".03" mass="{mass:g}"/>'
     motor = [f'<motor name="m{i}" joint="j{i}"/>'] if kind in ("hinge", "slide") and rng.random() < 0.6 else []
     return f'<body pos="{0.5 * (i > 0)} 0 0"><joint name="j{i}" {attributes}/>{geom}', motor
 
@@ -131,7 +132,8 @@ def options(rng):
     if rng.random() < 0.3:
         found["ds_max"] = abs(number(rng, 0.1))
     if rng.random() < 0.1:
-        found[str(rng.choice(["ds", "ds_min", "tol", "angle", "chord", "max_size", "max_corrections"]))] = number(rng, 0.3)
+        name = rng.choice(["ds", "ds_min", "tol", "angle", "chord", "max_size", "max_corrections"])
+        found[str(name)] = number(rng, 0.3)
     return found
 
 

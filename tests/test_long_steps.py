@@ -144,6 +144,39 @@ def test_two_folds_close_to_their_cusp_are_both_found(force):
     assert places[0] == pytest.approx(places[1], rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("start", "ds_max"), [(382736.1, 0.04172445), (427981.5, 0.02848422), (371706.8, 0.04431817), (4e5, 0.01)]
+)
+def test_a_pair_of_folds_is_found_wherever_the_points_beside_it_lie(start, ds_max):
+    """A point 1e-3 beyond the pair, where the slope is small: the cubic from the point before has its least there."""
+    gear = mc.Mechanism.from_xml("nose_gear")
+    values = {"F_ret": start, "F_ul": -411.8079, "gravity_angle": 0.0}
+    branch = mc.continue_equilibria(gear, "F_ret", (0.0, 8e5), values, keyframe="uplock_above", ds_max=ds_max)
+    assert [p.kind for p in branch.special_points] == ["LP"] * 3
+
+
+def slide(stiffness):
+    """Return a mass on a slide between a spring and a slanting tendon: P = K z + 100 z (1 - 1.2 / r)."""
+    return mc.Mechanism.from_xml(
+        '<mujoco><option gravity="0 0 0"/><worldbody><site name="l" pos="-1 0 0"/><body><joint name="z" type="slide" '
+        f'axis="0 0 1" stiffness="{stiffness}" damping="1"/><geom size=".1" mass="1"/><site name="s"/></body>'
+        '</worldbody><tendon><spatial stiffness="100" springlength="1.2"><site site="l"/><site site="s"/></spatial>'
+        '</tendon><actuator><motor name="P" joint="z"/></actuator></mujoco>'
+    )
+
+
+@pytest.mark.parametrize("stiffness", [19.99, 20.0, 20.001, 20.01])
+def test_a_first_step_without_points_inside_may_be_refused(stiffness):
+    """K = 20 has a cusp at z = 0; the curve is known in closed form on both sides of it."""
+    mechanism = slide(stiffness)
+    for start in (-40.0, -10.0, 5.0, 35.0):
+        branch = mc.continue_equilibria(mechanism, "P", bounds=(-50.0, 50.0), start={"P": start})
+        z = branch.states[:, 0]
+        load = stiffness * z + 100.0 * z * (1.0 - 1.2 / np.hypot(1.0, z))
+        assert branch["P"] == pytest.approx(load, abs=1e-9)
+        assert len(branch.of_kind("LP")) == (2 if stiffness < 20.0 else 0)
+
+
 def column(links):
     """Return an elastic column of hinged links under a dead load P along its axis, of length 1 m."""
     length, stiffness = 1.0 / links, float(links)

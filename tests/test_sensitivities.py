@@ -11,6 +11,7 @@ import math
 from dataclasses import replace
 from functools import cache
 
+import numpy as np
 import pytest
 from reference import PARAMETERS, rigid_folds
 from test_problems_equilibria import branch_of_ab, branch_of_brusselator, branch_of_cusp
@@ -276,6 +277,23 @@ def test_a_branch_point_that_persists_has_derivatives_and_one_that_breaks_has_no
     assert found["P", "k"] == pytest.approx(points[0]["P"] / 1000.0, rel=1e-7)
     assert math.isnan(found["P", "H"])
     assert any("H breaks the branch point" in n for n in found.notes)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.7, 2.0])
+def test_what_breaks_a_branch_point_does_not_depend_on_the_axes(angle):
+    """A pitchfork x (mu - c - x^2) = 0 seen through a rotation: c moves it, tilt breaks it, idle does nothing."""
+    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+
+    def f(u, p):
+        x, y = turn.T @ u
+        return turn @ [x * (p["mu"] - p["c"] - x**2) + p["tilt"], p["c"] ** 2 - y]
+
+    field = mc.VectorField(f, turn @ [0.0, 0.09], {"mu": 0.0, "c": 0.3, "tilt": 0.0, "idle": 1.0})
+    point = mc.continue_equilibria(field, "mu", bounds=(-1.0, 1.0)).point("BP1")
+    found = mc.sensitivities(point, ["c", "tilt", "idle"])
+    assert found["mu", "c"] == pytest.approx(1.0, rel=1e-8)
+    assert found["mu", "idle"] == pytest.approx(0.0, abs=1e-9)
+    assert math.isnan(found["mu", "tilt"])
 
 
 def test_a_user_zero_on_a_fold_curve_is_a_fold_with_the_second_parameter_held():

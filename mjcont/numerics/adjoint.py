@@ -236,7 +236,7 @@ class _Frozen:
         h = _RAY / length_of(v, problem.state_scale)
         steps = (_NODES * _RAY)[:, None, None] * e + (NODES * h)[None, :, None] * v
         rows = problem.residuals(local.x, local.values, steps.reshape(-1, len(e))) @ self.vectors["w"]
-        return float(_FIRST @ rows.reshape(len(_NODES), len(NODES)) @ SECOND) / (_RAY * h**2)
+        return float((_FIRST @ rows.reshape(len(_NODES), len(NODES)) @ SECOND) / (_RAY * h * h))
 
     def _by_differences(self, condition: Any, aux: Array) -> Array:
         system, local = self.system, self.local

@@ -41,7 +41,7 @@ def zero_hopf_coefficients(problem: Problem, x: Array, values: Values, omega: fl
     floor, along, across = _VANISHES * abs(omega), form.size(q0), form.size(q1)
     missing = [
         name
-        for name, size in (("G200", abs(g200) / along), ("G011", abs(g011) * along / across**2))
+        for name, size in (("G200", abs(g200) / along), ("G011", abs(g011) * along / (across * across)))
         if not size > floor
     ]
     if missing:
@@ -73,7 +73,7 @@ def double_hopf_coefficients(
     cross2 = form.trilinear(q2, q1, q1.conj()) + b(q1.conj(), h1010) + b(q1, h1001.conj()) + b(q2, h1100)
     p11, p22 = 0.5 * float(np.vdot(p1, own1).real), 0.5 * float(np.vdot(p2, own2).real)
     p12, p21 = float(np.vdot(p1, cross1).real), float(np.vdot(p2, cross2).real)
-    floors = [_VANISHES * abs(omega1) * form.size(q1) ** 2, _VANISHES * abs(omega2) * form.size(q2) ** 2]
+    floors = [_VANISHES * abs(w) * size * size for w, size in ((omega1, form.size(q1)), (omega2, form.size(q2)))]
     theta, delta = (
         cross / own if abs(own) > floor else math.nan
         for cross, own, floor in ((p12, p22, floors[1]), (p21, p11, floors[0]))

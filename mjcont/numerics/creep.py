@@ -24,6 +24,8 @@ from mjcont.numerics.system import Local
 _REACH = 0.05
 _RESTS = 1e-9
 _LONGEST = 60.0
+# rates below this count as it: the longest dt is a number still
+_SLOWEST = 1e-100
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +75,8 @@ def creep(
         if not np.all(np.isfinite(local.f)):
             return Crept(x, steps, "the creeping motion left the domain of f")
         s, vectors, g = rates(local)
+        if not (np.isfinite(s).all() and np.isfinite(g).all()):
+            return Crept(x, steps, "the creeping motion has no rates where it is: df/dx or the mass is singular there")
 
         def step(dt: float, s: Array = s, vectors: Array = vectors, g: Array = g) -> Array:
             return (vectors @ (_phi(s, dt) * g)).real
@@ -89,7 +93,7 @@ def creep(
 
 def _longest(size: Any, s: Array, reach: float) -> float:
     """Return the longest dt, to a few per cent, at which a step is no larger than `reach`."""
-    rate = max(float(np.abs(s).max()), 1e-300)
+    rate = max(float(np.abs(s).max()), _SLOWEST)
     low, high = 1e-6 / rate, 1e12 / max(float(np.abs(s).min()), 1e-12 * rate)
     if np.any(s.real > 0.0):  # an unstable mode must not outgrow what an exponential can hold
         high = min(high, _LONGEST / float(s.real.max()))

@@ -29,6 +29,8 @@ from mjcont.numerics.problem import Array
 from mjcont.numerics.system import ROW_GUARD, Free, Local, System, equation_scale
 
 _SLOW_TIME = 0.1
+# rates below this, in 1/s, count as it: their squares are numbers still
+_SLOWEST = 1e-150
 _GENERIC = np.array([0.8, 0.6])
 
 
@@ -159,8 +161,8 @@ class Hopf:
     count, unfolds = 2, False
 
     def __init__(self, local: Local, square: float) -> None:
-        self.rate = float(np.sqrt(abs(square))) if square else 1.0
-        self.aux = (float(np.arcsinh(square / self.rate**2)),)
+        self.rate = max(float(np.sqrt(abs(square))), _SLOWEST) if square else 1.0
+        self.aux = (float(np.arcsinh(square / self.rate / self.rate)),)
         self._prepare(local, square)
 
     def _prepare(self, local: Local, square: float) -> None:
@@ -172,7 +174,7 @@ class Hopf:
         """
         self.inner = self._time_scale(local, square)
         self.rows = self._row_scale(local)
-        n, k = local.problem.n, square / self.inner**2
+        n, k = local.problem.n, square / self.inner / self.inner
         v, w = null_vectors(self._block(local, k), 2)
         if k >= 0:
             v, w = v @ singular(v[:n])[2][0], w @ singular(w[n:])[2][0]
@@ -184,8 +186,8 @@ class Hopf:
     def _time_scale(self, local: Local, square: float) -> float:
         """Return omega, or where that vanishes a tenth of the rate at which the system moves."""
         mass, damping, stiffness = (float(np.abs(m).max()) for m in dense_pencil(local))
-        typical = np.sqrt(stiffness / mass) if mass > 0 else stiffness / damping
-        return float(np.hypot(np.sqrt(abs(square)), _SLOW_TIME * min(typical, self.rate)))
+        typical = np.sqrt(stiffness / mass) if mass > 0 else stiffness / max(damping, _SLOWEST)
+        return max(float(np.hypot(np.sqrt(abs(square)), _SLOW_TIME * min(typical, self.rate))), _SLOWEST)
 
     def _row_scale(self, local: Local) -> Array:
         mass, damping, stiffness = self._unscaled(local)
@@ -194,7 +196,7 @@ class Hopf:
     def _unscaled(self, local: Local) -> tuple[Array, Array, Array]:
         scale = local.problem.state_scale
         mass, damping, stiffness = dense_pencil(local)
-        return self.inner**2 * mass * scale, self.inner * damping * scale, stiffness * scale
+        return self.inner * self.inner * mass * scale, self.inner * damping * scale, stiffness * scale
 
     def _block(self, local: Local, k: float) -> Array:
         mass, damping, stiffness = (self.rows[:, None] * a for a in self._unscaled(local))
@@ -208,7 +210,7 @@ class Hopf:
 
     def value(self, local: Local, aux: Array) -> Array:
         """Return (g0, g1)."""
-        return self._solve(local, self.square(aux) / self.inner**2)
+        return self._solve(local, self.square(aux) / self.inner / self.inner)
 
     def _solve(self, local: Local, k: float) -> Array:
         rhs = np.zeros(2 * len(self.b0) + 2)
@@ -217,7 +219,7 @@ class Hopf:
 
     def square(self, aux: Array) -> float:
         """Return omega^2 (negative at a neutral saddle), in 1/s^2."""
-        return float(np.sinh(aux[0])) * self.rate**2
+        return float(np.sinh(aux[0])) * self.rate * self.rate
 
     def update(self, local: Local, aux: Array) -> None:
         """Take the present null vectors as borders."""

@@ -86,7 +86,7 @@ def combine(f, v: Array, order: int, h: float) -> Array:  # type: ignore[no-unty
     """Return the `order`-th derivative of t -> f(t v) at 0 from a batched f."""
     nodes, weights = {1: (NODES, FIRST), 2: (NODES, SECOND), 3: (_NODES9, _THIRD)}[order]
     rows = f((nodes * h)[:, None] * v)
-    return weights @ rows / h**order
+    return weights @ rows / np.float64(h) ** order  # a power of Python's own raises where it overflows
 
 
 def second_form(problem: Problem, x: Array, values: Values, u: Array, v: Array, step: float = 1e-2) -> Array:

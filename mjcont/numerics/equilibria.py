@@ -303,7 +303,7 @@ def critical_pair(s: Spectrum) -> tuple[float, float] | None:
 
 def _frequency(pair: tuple[float, float]) -> float:
     """Return the imaginary part of a complex pair given by sum and product, zero for a real one."""
-    return float(np.sqrt(max(pair[1] - 0.25 * pair[0] ** 2, 0.0)))
+    return float(np.sqrt(max(pair[1] - 0.25 * pair[0] * pair[0], 0.0)))
 
 
 def critical_square(s: Spectrum) -> float | None:

@@ -94,7 +94,7 @@ class _Rows:
 def count_inside(length: float, angle: float, settings: Settings) -> int:
     """Return how many points a step of some length and turning angle needs inside."""
     needed = max(length / settings.ds_max, angle / settings.angle) - 1.0
-    return math.ceil(needed) if needed > _SLACK else 0
+    return math.ceil(min(needed, MOST + 1.0)) if needed > _SLACK else 0
 
 
 def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool) -> list[Interior | str]:

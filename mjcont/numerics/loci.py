@@ -133,7 +133,7 @@ def _pair_detector(kind: str, system: System, settings: Settings, count: Callabl
 def _next_square(s: Spectrum, skip: bool) -> float | None:
     """Return omega^2 of the complex pair nearest the axis, or of the one after it."""
     pairs = sorted(
-        (p for p in critical_pairs(s) if p[1] > 0 and p[0] ** 2 < 4.0 * p[1]), key=lambda p: abs(p[0]) / p[1] ** 0.5
+        (p for p in critical_pairs(s) if p[1] > 0 and p[0] * p[0] < 4.0 * p[1]), key=lambda p: abs(p[0]) / p[1] ** 0.5
     )
     index = 1 if skip else 0
     return pairs[index][1] if len(pairs) > index else None
@@ -169,7 +169,7 @@ def hopf_locus_detectors(system: System, hopf: Hopf, settings: Settings, *, lyap
 
     def finish_fold(c: Corrected) -> tuple[dict[str, Any], str] | None:
         square = hopf.square(c.y[last : last + 1])
-        if square <= 1e-6 * hopf.rate**2:
+        if square <= 1e-6 * hopf.rate * hopf.rate:
             return None
         return codim2.zero_hopf_coefficients(c.local.problem, c.x, c.local.values, float(np.sqrt(square)))
 

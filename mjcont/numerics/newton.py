@@ -279,4 +279,4 @@ def _first_dt(local: Local, mass: Any) -> float:
     stiffest = abs(local.raw_jac).max(axis=1)
     stiffest = stiffest.toarray().ravel() if sparse.issparse(stiffest) else stiffest
     fast = np.max(stiffest / np.maximum(np.abs(mass.diagonal()), 1e-300))
-    return float(1.0 / max(fast, 1e-12))
+    return max(float(1.0 / max(fast, 1e-12)), 1e-300)

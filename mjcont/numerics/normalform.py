@@ -76,7 +76,7 @@ class FirstOrder:
         if length == 0.0:
             return np.zeros(len(v))
         step = {2: 1e-2, 3: 2e-2}[order]
-        return combine(self._f, v / length, order, step) * length**order
+        return combine(self._f, v / length, order, step) * np.float64(length) ** order
 
     def second(self, u: Array, v: Array) -> Array:
         """Return B(u, v) for complex vectors."""
@@ -199,9 +199,9 @@ def crossing(local: Local, kernel: Array, w: Array, slope: float) -> Crossing:
     p0, p1 = kernel.T
     b00, b11 = along(p0), along(p1)
     b01 = 0.25 * (along(p0 + p1) - along(p0 - p1))
-    discriminant = b01**2 - b00 * b11
+    discriminant = b01 * b01 - b00 * b11
     size = max(abs(b00), abs(b01), abs(b11), 1e-300)
-    if discriminant < -1e-6 * size**2:
+    if discriminant < -1e-6 * size * size:
         return Crossing((), "isola centre")
     root = np.sqrt(max(discriminant, 0.0))
     if abs(b00) > abs(b11):

@@ -1,0 +1,96 @@
+"""Every numerical routine meets what it cannot compute (NaN, zero, singular, nothing at all), and returns."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import pkgutil
+
+import numpy as np
+import pytest
+from failing import BAD, CASES, PLAIN, Bad, walk
+
+import mjcont as mc
+import mjcont.numerics
+from mjcont.numerics import events, guard, stability, trace
+from mjcont.numerics.steps import Status
+
+
+def public_names():
+    """Return the public functions and classes of all numerical modules."""
+    for module in pkgutil.iter_modules(mjcont.numerics.__path__):
+        content = vars(importlib.import_module(f"mjcont.numerics.{module.name}"))
+        for name, item in content.items():
+            own = getattr(item, "__module__", "") == f"mjcont.numerics.{module.name}"
+            if own and not name.startswith("_") and (inspect.isfunction(item) or inspect.isclass(item)):
+                yield f"{module.name}.{name}"
+
+
+def test_every_public_routine_of_the_numerics_is_made_to_fail():
+    assert set(public_names()) == set(CASES) | PLAIN
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_routine_returns_where_it_can_compute_nothing(name):
+    with np.errstate(all="ignore"):
+        for bad in BAD:
+            CASES[name](bad)
+
+
+# -- what is said -------------------------------------------------------------------------------------------------
+
+UNDEFINED = [Bad(kind, n, s) for kind in ("nan", "infinite") for n in (1, 2, 3) for s in (False, True)]
+
+
+@pytest.mark.parametrize("name", ["newton.correct", "newton.solve", "newton.find_start", "creep.creep"])
+def test_a_solver_without_a_value_of_f_fails_with_a_sentence(name):
+    with np.errstate(all="ignore"):
+        assert all(len(CASES[name](bad).failure.split()) >= 3 for bad in UNDEFINED)
+
+
+@pytest.mark.parametrize("name", ["arclength.advance", "arclength.first_point", "arclength.land"])
+def test_a_step_without_a_value_of_f_is_refused_with_a_sentence(name):
+    with np.errstate(all="ignore"):
+        assert all(len(CASES[name](bad).split()) > 3 for bad in UNDEFINED)
+
+
+def test_a_walk_without_a_value_of_f_ends_with_a_status():
+    with np.errstate(all="ignore"):
+        assert {walk(bad) for bad in UNDEFINED} == {Status.STEP_TOO_SMALL}
+
+
+@pytest.mark.parametrize("bad", UNDEFINED, ids=str)
+def test_a_pencil_without_eigenvalues_is_marginal_and_they_are_nan(bad):
+    with np.errstate(all="ignore"):
+        found = stability.local_spectrum(bad.local)
+    assert (found.stability, found.n_unstable) == ("marginal", 0)
+    assert np.isnan(found.eigenvalues).all() and len(found.eigenvalues) == bad.n
+
+
+def test_a_solution_between_points_that_coincide_is_not_between_them():
+    bad = Bad("zero", 2, False)
+    assert events.within(bad.system, bad.point(), bad.point(), bad.corrected) is None
+
+
+def test_an_error_that_nobody_expected_ends_a_curve_with_a_status_and_keeps_its_points(monkeypatch):
+    def broken(self, old, inside, new):
+        if new.y[0] > 0.2:
+            raise IndexError("list index out of range")
+        return [new]
+
+    monkeypatch.setattr(guard, "_raised", False)
+    monkeypatch.setattr(trace.Walker, "_items", broken)
+    line = mc.VectorField(lambda u, p: [u[0] - p["p"]], [0.0], {"p": 0.0})
+    branch = mc.continue_equilibria(line, "p", bounds=(-1.0, 1.0))
+    assert branch.ends[0][0] == "at bound"
+    status, sentence = branch.ends[1]
+    assert status == "failed"
+    assert "IndexError: list index out of range" in sentence and "Please report this" in sentence
+    assert 0.3 < branch["p"].max() <= 0.4  # the coordinate is half of p
+
+
+def test_an_error_that_nobody_expected_is_raised_in_the_tests(monkeypatch):
+    monkeypatch.setattr(trace.Walker, "_items", lambda self, old, inside, new: inside.points[0])
+    line = mc.VectorField(lambda u, p: [u[0] - p["p"]], [0.0], {"p": 0.0})
+    with pytest.raises(IndexError):
+        mc.continue_equilibria(line, "p", bounds=(-1.0, 1.0))
