@@ -17,11 +17,13 @@ from mjcont.continuation import (
     make_settings,
 )
 from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.found import same_spectrum
 from mjcont.numerics.arclength import CurvePoint, point_from
 from mjcont.numerics.events import Located
 from mjcont.numerics.newton import correct, solve
 from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
+from mjcont.numerics.stability import spectrum_of
 from mjcont.numerics.steps import End, Status
 from mjcont.numerics.system import Free, System
 from mjcont.numerics.trace import Trace, trace
@@ -29,6 +31,8 @@ from mjcont.walkers import equilibrium_walker
 
 _OFFSET = 1e-2
 _SAME = 1e-5
+# arclengths are sums over steps: those of halves that are images of each other agree to this part
+_AS_LONG = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,17 +158,14 @@ def _away(system: System, a: CurvePoint, b: CurvePoint) -> bool:
 
 
 def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool:
-    """Whether two halves are images of each other: at equal parameter, equal spectra but different states."""
-    from mjcont.numerics.stability import spectrum_of
+    """Whether two halves are images of each other: as long, with equal parameters and spectra at both ends.
 
-    if not minus or len(minus) != len(plus):
+    How many points they have is left to rounding.
+    """
+    if not minus or not plus or abs(minus[-1][0].s - plus[-1][0].s) > _AS_LONG * plus[-1][0].s:
         return False
-    for i in (0, len(minus) // 2, len(minus) - 1):
-        a, b = minus[i][0], plus[i][0]
-        if abs(a.y[0] - b.y[0]) > 1e-6:
-            return False
-        ea, eb = spectrum_of(a).eigenvalues, spectrum_of(b).eigenvalues
-        if len(ea) != len(eb) or np.max(np.abs(np.sort_complex(ea) - np.sort_complex(eb))) > 1e-4 * np.abs(ea).max():
+    for (a, _), (b, _) in ((minus[0], plus[0]), (minus[-1], plus[-1])):
+        if abs(a.y[0] - b.y[0]) > 1e-6 or not same_spectrum(spectrum_of(a), spectrum_of(b)):
             return False
     return True
 
