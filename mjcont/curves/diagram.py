@@ -18,15 +18,19 @@ from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace, trace
 from mjcont.results.branch import Branch, Diagram
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint
+from mjcont.results.search import same_spectrum
 
 _OFFSET = 1e-2
 _SAME = 1e-5
+# arclengths are sums over steps: those of halves that are images of each other agree to this part
+_AS_LONG = 1e-3
 
 
 @np.errstate(all="ignore")
@@ -117,17 +121,14 @@ def _away(system: System, a: CurvePoint, b: CurvePoint) -> bool:
 
 
 def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool:
-    """Whether two halves are images of each other: at equal parameter, equal spectra but different states."""
-    from mjcont.numerics.spectra.stability import spectrum_of
+    """Whether two halves are images of each other: as long, with equal parameters and spectra at both ends.
 
-    if not minus or len(minus) != len(plus):
+    How many points they have is left to rounding.
+    """
+    if not minus or not plus or abs(minus[-1][0].s - plus[-1][0].s) > _AS_LONG * plus[-1][0].s:
         return False
-    for i in (0, len(minus) // 2, len(minus) - 1):
-        a, b = minus[i][0], plus[i][0]
-        if abs(a.y[0] - b.y[0]) > 1e-6:
-            return False
-        ea, eb = spectrum_of(a).eigenvalues, spectrum_of(b).eigenvalues
-        if len(ea) != len(eb) or np.max(np.abs(np.sort_complex(ea) - np.sort_complex(eb))) > 1e-4 * np.abs(ea).max():
+    for (a, _), (b, _) in ((minus[0], plus[0]), (minus[-1], plus[-1])):
+        if abs(a.y[0] - b.y[0]) > 1e-6 or not same_spectrum(spectrum_of(a), spectrum_of(b)):
             return False
     return True
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.results.points import Point, show
 
 _SAME_ENERGY = 1e-7
@@ -169,7 +170,7 @@ def _table(points: Sequence[Equilibrium], first: Sequence[str]) -> list[list[str
     return rows
 
 
-def same_spectrum(a: Point, b: Point) -> bool:
+def same_spectrum(a: Point | Spectrum, b: Point | Spectrum) -> bool:
     """Whether two equilibria have equal eigenvalues, to what differences allow."""
     if len(a.eigenvalues) != len(b.eigenvalues):
         return False
