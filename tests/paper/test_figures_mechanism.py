@@ -45,7 +45,7 @@ def script(figure):
     [
         pytest.param(2, [True] * 5, marks=pytest.mark.long),
         (4, [True] * 5),
-        (7, [True] * 4),
+        pytest.param(7, [True] * 4, marks=pytest.mark.long),
         pytest.param(8, [True] * 5, marks=pytest.mark.long),
     ],
 )
