@@ -10,8 +10,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from _gear import ANGLES, FIRST, LOAD_FACTORS, LOCKING, NAMES, Slice, add_legend, angle_of, load_case
-from _loci import Case, cases
+from _gear import FIRST, LOAD_FACTORS, LOCKING, NAMES, Slice, add_legend, angle_of, load_case
 
 import mjcont as mc
 from mjcont.drawing.plotting import new_figure, save_figure, set_panel_title
@@ -26,8 +25,7 @@ def main(out: Path) -> list[Finding]:
     found = [_same_structure(first), _same_structure(locking), _three_folds(first, locking)]
     for slices in (first, locking):
         locus = slices[0].followed("load_factor", LOAD_FACTORS[0], LOAD_FACTORS[-1])
-        found += [_more_force(slices, locus), _more_retracted(slices, locus),
-                  _all_cases([c for n in LOAD_FACTORS for c in cases(slices[0].gear, n)])]
+        found += [_more_force(slices, locus), _more_retracted(slices, locus)]
     return found
 
 
@@ -90,19 +88,6 @@ def _more_retracted(slices: list[Slice], locus: mc.Branch) -> Finding:
         f"{'; '.join(shown)}; both fall all along FP1's curve in load factor",
         np.all(np.diff(locus["theta_1"]) < 0) and np.all(np.diff(locus["theta_ov"]) < 0),
         slices[0].gear.name,
-    )
-
-
-def _all_cases(loci: list[Case]) -> Finding:
-    above, below = ([angle_of(p) for p in points] for points in
-                    ([c.fold for c in loci], [c.unlocked for c in loci]))
-    return Finding(
-        "At every load factor and attitude FP1 lies above overcentre without unlock force and below with 500 N.",
-        f"{len(loci)} cases, load factors {', '.join(f'{n:g}' for n in LOAD_FACTORS)}, gravity angles "
-        f"{', '.join(f'{a:g}' for a in ANGLES)} deg: theta_ov from {min(above):+.2f} to {max(above):+.2f} deg, with "
-        f"500 N from {min(below):+.2f} to {max(below):+.2f} deg",
-        min(above) > 0 > max(below),
-        loci[0].model,
     )
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from _gear import ANGLES, FIRST, LOAD_FACTORS, LOCKING
+from _gear import ANGLES, FIRST, LOAD_FACTORS, LOCKING, angle_of
 from _loci import Case, cases, found_cusps, least_favourable, loci_figure, separates, spread
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
@@ -45,6 +45,7 @@ def main(out: Path) -> list[Finding]:
         _counter_intuitive(found[0.5], loci, 0.01),
         _counter_intuitive(locking[0.5], locking[2.5], 0.05),
         _gravity_aids(cusps),
+        *(_all_cases([c for loci in by_load.values() for c in loci]) for by_load in (found, locking)),
     ]
 
 
@@ -101,6 +102,19 @@ def _gravity_aids(cusps: Mapping[float, mc.Branch]) -> Finding:
         f"it below ({', '.join(descent)} at -30 deg)",
         -25.0 < crossing < -15.0 and difference(0.0) > 0 > difference(-REACH),
         FIRST,
+    )
+
+
+def _all_cases(loci: list[Case]) -> Finding:
+    above, below = ([angle_of(p) for p in points] for points in
+                    ([c.fold for c in loci], [c.unlocked for c in loci]))
+    return Finding(
+        "At every load factor and attitude FP1 lies above overcentre without unlock force and below with 500 N.",
+        f"{len(loci)} cases, load factors {', '.join(f'{n:g}' for n in LOAD_FACTORS)}, gravity angles "
+        f"{', '.join(f'{a:g}' for a in ANGLES)} deg: theta_ov from {min(above):+.2f} to {max(above):+.2f} deg, with "
+        f"500 N from {min(below):+.2f} to {max(below):+.2f} deg",
+        min(above) > 0 > max(below),
+        loci[0].model,
     )
 
 
