@@ -36,6 +36,9 @@ from mjcont.numerics.step.turning import turning_fraction
 _NOT_TRANSVERSE = 1e-6
 # the unfolding of a true branch point vanishes with the square of the error of its location
 _UNFOLDED = 1e-12
+# an unfolding larger than this is no error of location
+_IMPERFECT = 1e-8
+_OTHER_BRANCH = Refused(Why.OTHER_BRANCH, "the orientation changes without a branch point: another branch is near")
 _DEGENERATE = 1e-9
 _CLOSE = 1e-6
 _SMALL = 1e-4
@@ -68,17 +71,20 @@ class BranchPointDetector:
         """Whether the orientation changes; it is zero on a branch point, which belongs to the steps on both sides."""
         return old.sign != new.sign
 
-    def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
+    def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | Refused | None:
         near = approximate(self.system, old, new, 0.5, self.settings)
         if near.failure is not None:
             return None
         condition = BranchPoint(near.local, self.system.free[0])
         full, y = square_system(self.system, [condition], near)
         c = solve(full, near.x, y)
-        if c.failure is not None or abs(c.y[self.system.k]) > _UNFOLDED:
-            return None
-        s = within(self.system, old, new, c)
+        s = within(self.system, old, new, c) if c.failure is None else None
         if s is None:
+            return None
+        unfolding = abs(float(c.y[self.system.k]))
+        if unfolding > _IMPERFECT:  # two branches pass each other here: halving the bracket finds the same
+            return _OTHER_BRANCH
+        if unfolding > _UNFOLDED:
             return None
         kernel, w = condition.null(c.local)
         slope = self.system.free[0].slope(float(c.y[0]))
@@ -97,7 +103,7 @@ class BranchPointDetector:
         """
         result = bisect(self.system, old, new, self.crossed, self._settle, self.settings)
         if result is None and old.sign * new.sign < 0:
-            return Refused(Why.OTHER_BRANCH, "the orientation changes without a branch point: another branch is near")
+            return _OTHER_BRANCH
         return Found() if result is None else Found([result])
 
 
