@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from mjcont.curves.collect import Progress, collect, make_point, run_directions, special_point
+from mjcont.curves.collect import Progress, collect, make_point, mark_of, run_directions
 from mjcont.curves.walkers import Zeros, equilibrium_walker, monitor_of, point_stop, zero_values
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.numerics.equations.free import Free
@@ -186,7 +186,7 @@ def iterate_equilibria(
             yield make_point(model_of(system.problem), item.x, system.values(item.y))
         elif isinstance(item, Located):
             row = make_point(model_of(system.problem), item.point.x, system.values(item.point.y), item.kind)
-            yield special_point(row, item, "", 0, {p.name: (p.low, p.high) for p in system.free}, "equilibria")
+            yield mark_of(item).on(row, {p.name: (p.low, p.high) for p in system.free}, "equilibria")
 
 
 @dataclass(frozen=True, slots=True)
