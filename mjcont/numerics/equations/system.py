@@ -188,6 +188,10 @@ class System:
             merged[p.name] = p.value(u)
         return merged
 
+    def where(self, y: Array) -> str:
+        """Return the free parameters at y as a sentence shows them."""
+        return ", ".join(f"{p.name} = {p.show(p.value(u))}" for p, u in zip(self.free, y.tolist(), strict=False))
+
     def local(self, x: Array, y: Array) -> Local:
         """Return the evaluation at (x, y)."""
         return Local(self.problem, x, self.values(y), self.names, self.accurate, self.ranges)

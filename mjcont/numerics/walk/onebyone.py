@@ -13,15 +13,12 @@ from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.corner import NEAR, cross
-from mjcont.numerics.points.events import Detector, Found, Located
+from mjcont.numerics.points.events import Detector
+from mjcont.numerics.points.looking import SMALL_FOLDS, look
 from mjcont.numerics.step.arclength import CurvePoint, advance, aim, by_contraction, follows, land, next_step, predict
-from mjcont.numerics.step.turning import may_turn_beyond, may_turn_twice
+from mjcont.numerics.step.turning import may_turn_twice
 from mjcont.numerics.walk.steps import End, Leap, Status, Step
 
-# below this step a pair of folds, or a fold beyond a bound, is not looked for between two points
-_SMALL_FOLDS = 1e-5
-# a fold this near to a branch point is the same point: a pitchfork's turning side branch
-_SAME_AS_BRANCH = 1e-5
 # parts of a refused step that are tried next; corrections after which derivatives are taken at the prediction; along a
 # locus, whose matrices are not extrapolated, contraction that tells that they turn with the mechanism
 _SHORTER, _MANY, _STALE = 0.4, 4, 0.25
@@ -67,7 +64,7 @@ class OneByOne:
                 if crossed is not None:
                     return Step([crossed[1], crossed[0]], self.settings.ds)
             if h < self.settings.ds_min:
-                return End(Status.STEP_TOO_SMALL, f"step below ds_min at {self._where(point)}: {tried}")
+                return End(Status.STEP_TOO_SMALL, f"step below ds_min at {self.system.where(point.y)}: {tried}")
 
     def attempt(self, point: CurvePoint, h: float) -> Step | Refused:
         """Return a step of length h with the special points within, or why it is refused."""
@@ -102,10 +99,10 @@ class OneByOne:
     def looked(self, leap: Leap) -> Step | Refused:
         """Look for special points within a step, and choose the next."""
         old, new, h = leap.old, leap.new, leap.h
-        if not self.system.conditions and h > _SMALL_FOLDS and may_turn_twice(self.system, old, new, 0):
+        if not self.system.conditions and h > SMALL_FOLDS and may_turn_twice(self.system, old, new, 0):
             return Refused(Why.TURNS_TWICE, "the parameter may turn twice", _SHORTER * h)
         follows(new, old)
-        found = self.between(old, new, self.detectors)
+        found = look(self.system, old, new, self.detectors)
         if isinstance(found, Refused):
             return replace(found, shorter=_SHORTER * h)
         self.learn(leap)
@@ -116,25 +113,3 @@ class OneByOne:
         new, short = leap.new, leap.h <= self.settings.ds_max
         stale = bool(self.system.conditions) and new.contraction > _STALE
         self._fresh |= short and by_contraction(new) < 1.0 and (new.iterations > _MANY or stale)
-
-    def between(self, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector]) -> Found | Refused:
-        """Return the special points between two points of the curve in order, or why the step is to be shorter."""
-        located, neutral = list[Located](), list[Located]()
-        for detector in detectors:
-            found = detector.locate(old, new, located) if detector.crossed(old, new) else Found()
-            if isinstance(found, Refused):
-                return found
-            located += found.located
-            neutral += found.neutral
-        branch_points = [e.point.s for e in located if e.kind == "BP"]
-        if branch_points:
-            folds = [e for e in located if e.kind == "LP"]
-            same = [e for e in folds if any(abs(e.point.s - s) <= _SAME_AS_BRANCH for s in branch_points)]
-            located = [e for e in located if e not in same]
-        if not located and new.s - old.s > _SMALL_FOLDS and may_turn_beyond(self.system, old, new):
-            return Refused(Why.TURNS_TWICE, "a parameter may turn beyond its bound")
-        return Found(sorted(located, key=lambda e: e.point.s), neutral)
-
-    def _where(self, point: CurvePoint) -> str:
-        free = zip(self.system.free, point.y.tolist(), strict=False)
-        return ", ".join(f"{p.name} = {p.show(p.value(u))}" for p, u in free)
