@@ -25,6 +25,10 @@ from mjcont.numerics.equations.differences import FOURTH_ORDER, combine, jacobia
 from mjcont.numerics.equations.problem import Array, Equations, Values
 from mjcont.numerics.equations.system import Local
 
+# second derivatives of fourth order, as nodes and weights: centred, and to one side
+_SECOND = np.arange(-2.0, 3.0), np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
+_SECOND_ASIDE = np.arange(6.0), np.array([45.0, -154.0, 214.0, -156.0, 61.0, -10.0]) / 12.0
+
 
 def fold_coefficient(local: Local, v: Array, w: Array) -> float:
     """Return a for null vectors in physical units (any length)."""
@@ -188,13 +192,19 @@ def crossing(local: Local, kernel: Array, w: Array, slope: float) -> Crossing:
     name = local.wrt[0]
     problem, value = local.problem, local.values[name]
 
+    low, high = local.ranges[0] if local.ranges else (-math.inf, math.inf)
+
     def along(direction: Array) -> float:
-        nodes, h = np.arange(-2.0, 3.0), 5e-3
-        weights = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
+        h, rate = 5e-3, slope * float(direction[-1])
+        nodes, weights = _SECOND
+        reach = h * abs(rate) * nodes.max()
+        if not low <= value - reach <= value + reach <= high:  # on a bound, which the parameter does not leave
+            nodes, weights = _SECOND_ASIDE
+            h = math.copysign(h, rate if high - value > value - low else -rate)
         total = 0.0
         for t, weight in zip(nodes * h, weights, strict=True):
             x = problem.retract(local.x, t * direction[:-1] * problem.state_scale)
-            total += weight * float(w @ problem.residual(x, {**local.values, name: value + t * slope * direction[-1]}))
+            total += weight * float(w @ problem.residual(x, {**local.values, name: value + t * rate}))
         return total / h**2
 
     p0, p1 = kernel.T
