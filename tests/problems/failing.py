@@ -15,7 +15,7 @@ from mjcont.numerics.equations import adjoint, algebra, bordered, defining, diff
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Pencil
 from mjcont.numerics.equations.refusals import Refused
-from mjcont.numerics.points import codim2, corner, events, kinds, normalform, on_equilibria, on_loci
+from mjcont.numerics.points import codim2, corner, events, kinds, looking, normalform, on_equilibria, on_loci
 from mjcont.numerics.search import box, coordinates, creep, deflation, multistart, spanning
 from mjcont.numerics.spectra import spectrum, stability
 from mjcont.numerics.step import arclength, hermite, notes, turning
@@ -253,6 +253,9 @@ CASES = {
     "events.zero_fraction": lambda b: [events.zero_fraction(*v) for v in ((0.0, 0.0), (math.nan, 1.0))],
     "events.point_at": lambda b: events.point_at(b.system, b.point(), b.point(), b.corrected, 0.0),
     "events.ZeroDetector": lambda b: b.located([on_equilibria.fold_detector(b.system, b.settings)]),
+    "looking.look": lambda b: looking.look(
+        b.system, *b.pair, equilibrium_detectors(b.system, b.settings, {})
+    ),
     "events.ScalarZero": lambda b: b.condition(lambda: events.ScalarZero(lambda x, values: math.nan)),
     "filled.Filled": lambda b: filled_step(b),  # noqa: PLW0108
     "hermite.lagrange": lambda b: hermite.lagrange([], 0.0),
