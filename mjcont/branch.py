@@ -13,6 +13,7 @@ import numpy as np
 
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.problem import Array
+from mjcont.quantities import column_of
 
 if TYPE_CHECKING:
     from mjcont.certificates import Certificate
@@ -71,8 +72,8 @@ class Point:
         """Return a parameter's or observable's value."""
         if name in self.parameters:
             return self.parameters[name]
-        if name in self.observables:
-            return self.observables[name]
+        if (own := column_of(name, self.observables)) is not None:
+            return self.observables[own]
         raise unknown_name("parameter or observable", name, [*self.parameters, *self.observables])
 
     def __str__(self) -> str:
@@ -205,16 +206,16 @@ class Branch:
 
     def __getitem__(self, name: str) -> Array:
         """Return a column, SI and radians, (N,)."""
-        if name in self.columns:
-            return self.columns[name].values
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].values
         if name in self.fixed:
             return np.full(len(self), self.fixed[name])
         raise unknown_name("column", name, [*self.columns, *self.fixed])
 
     def unit(self, name: str) -> str:
         """Return the unit of a column or of a fixed parameter."""
-        if name in self.columns:
-            return self.columns[name].unit
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].unit
         if name in self.fixed:
             return self.fixed_units.get(name, "")
         raise unknown_name("column", name, [*self.columns, *self.fixed])

@@ -20,6 +20,7 @@ from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Free, System
 from mjcont.numerics.trace import Walker
+from mjcont.quantities import column_of, meant_each
 from mjcont.walkers import equilibrium_walker, monitor_of, point_stop
 
 
@@ -237,7 +238,9 @@ def _prepare(
             f"the start has {parameter} = {show(values[parameter], unit)}, outside the bounds "
             f"{show(low, unit)} .. {show(high, unit)}: give start={{'{parameter}': ...}} inside them"
         )
-    for name in (*(zeros or {}), *(limits or {})):
+    zeros = meant_each(zeros, (parameter,), problem.observables)
+    limits = meant_each(limits, (parameter,), problem.observables)
+    for name in (*zeros, *limits):
         if name not in problem.parameters:
             problem.observable(name)
     problem, notes = hold_rigid_modes(problem, x, values)
@@ -251,7 +254,7 @@ def _prepare(
     system = System(problem, values, [Free(parameter, low, high, problem.parameter(parameter).unit)])
     neutral: list[Located] = []
     walker = equilibrium_walker(
-        system, settings, neutral, zeros or {}, point_stop(problem, system, stop, limits or {})
+        system, settings, neutral, zeros, point_stop(problem, system, stop, limits)
     )
     origin = f"{origin}, by Newton" if found.method == "newton" else f"{origin}, by damped motion to rest"
     return _Prepared(walker, found.x, f"from {origin}", neutral, notes)
@@ -312,6 +315,7 @@ def points_at(branch: Branch, name: str, value: float) -> list[Point]:
         raise MjcontError("the branch was loaded without its problem: mc.load(path, problem=...)")
     if branch.kind != "equilibria":
         raise MjcontError("at() works on branches of equilibria; on a locus use its special points or rows")
+    name = column_of(name, branch.columns) or name
     column = branch[name] - value
     held, _ = hold_rigid_modes(branch.problem, branch.states[0], branch.parameters_at(0))
     branch = replace(branch, problem=held)

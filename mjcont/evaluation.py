@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import mujoco
 import numpy as np
 
 from mjcont.dampers import Dampers
+from mjcont.features import linear_in_velocity
 from mjcont.kinks import Kinks
 from mjcont.numerics.problem import Array
 from mjcont.rows import ConstrainedRows, Rows
@@ -14,8 +17,9 @@ from mjcont.writer import FieldWriter
 _MAX_BATCHES = 32
 _ACCELERATION_STEPS = (1e-3, 1e-6)
 _VELOCITY_STEPS = (1.0, 1e-3, 1e-6)
-# at unit speed drag counts that is not there at rest
-_DRAG_STEPS = (1e-4, 1e-6)
+# after unit speed, for forces that are curved in velocity: until each entry of C is known to this part of the dampers
+# of its row and column
+_FINER_SPEEDS, _KNOWN = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7), 1e-7
 
 
 class Evaluator:
@@ -125,28 +129,21 @@ class Evaluator:
         return dense
 
     def damping(self, x: Array, scale: Array) -> Array:
-        """Return -d forces/dv at rest, (nv, nv), centred: exact for linear dampers, and for drag that is quadratic.
+        """Return -d forces/dv at rest, (nv, nv).
 
-        Where such a velocity releases a contact or saturates an actuator, smaller ones are taken. Of a model with
-        nothing but dampers on joints, on tendons and along actuators the matrix is computed without differences.
+        It is computed without differences where dampers on joints, on tendons and along actuators are all, by unit
+        steps where forces are linear in velocity (smaller ones where those release a contact or saturate an actuator),
+        and by extrapolation elsewhere.
         """
         if self._dampers is not None and not self.writer.failure:
             return self._dampers.matrix(self.position(x))
-        for size in _DRAG_STEPS if self._drag else _VELOCITY_STEPS:
-            found, smooth = self._damping(x, size * scale)
-            if self._drag:
-                found = 2.0 * found - self._damping(x, 2.0 * size * scale)[0]
-            if smooth:
-                break
-        return found
-
-    @property
-    def _drag(self) -> bool:
-        """Whether forces depend on velocity otherwise than linearly."""
-        m = self.model
-        return bool(m.opt.density) or any(
-            p.any() for p in (m.dof_dampingpoly, m.tendon_dampingpoly, m.actuator_dampingpoly)
-        )
+        if linear_in_velocity(self.model):
+            for size in _VELOCITY_STEPS:
+                found, smooth = self._damping(x, size * scale)
+                if smooth:
+                    break
+            return found
+        return settled(lambda size: self._damping(x, size * scale))
 
     def _damping(self, x: Array, h: Array) -> tuple[Array, bool]:
         """Return -d forces/dv by steps `h`, and whether they stay on one smooth piece of the forces."""
@@ -154,3 +151,31 @@ class Evaluator:
         steps = np.concatenate([np.diag(h), -np.diag(h)])
         rows = self.forces(np.broadcast_to(x, (2 * n, len(x))), steps)
         return ((rows[n:] - rows[:n]) / (2.0 * h)[:, None]).T, len(set(self.sides)) <= 1
+
+
+def settled(matrix: Callable[[float], tuple[Array, bool]]) -> Array:
+    """Return the limit for small steps of a difference matrix, entry by entry where its error is least.
+
+    An entry that a unit step tells exactly (a linear damper, however stiff) is taken from that, any other one from
+    steps tenfold finer each time, whose first-order error (a muscle's force is curved otherwise on either side of
+    rest) is taken out by extrapolation. The change from one estimate to the next is the error of both.
+
+    Parameters
+    ----------
+    matrix : from the size of a step to the matrix, and whether the step stays on one smooth piece of the forces.
+    """
+    unit, smooth = matrix(1.0)
+    last, fine = matrix(_FINER_SPEEDS[0])
+    best, error = (unit, np.abs(unit - last)) if smooth else (last, np.full(last.shape, np.inf))
+    estimate = None
+    for size in _FINER_SPEEDS[1:]:
+        here, smooth = matrix(size)
+        finer = (10.0 * here - last) / 9.0 if fine else here
+        change = np.abs(finer - (last if estimate is None else estimate))
+        better = change < error if fine else np.full(here.shape, True)
+        best, error = np.where(better, finer, best), np.where(better, change if fine else np.inf, error)
+        last, fine, estimate = here, smooth, finer
+        dampers = np.sqrt(np.abs(np.diag(best)))
+        if fine and np.all(error <= _KNOWN * np.outer(dampers, dampers)):
+            break
+    return best

@@ -20,6 +20,7 @@ from mjcont.continuation import start_from
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.mechanism import Mechanism
 from mjcont.numerics.problem import Array
+from mjcont.quantities import column_of
 from mjcont.signals import Input, read_inputs
 from mjcont.stepping import INTEGRATORS, Case, Grid, Track, run
 
@@ -65,16 +66,16 @@ class History:
 
     def __getitem__(self, name: str) -> Array:
         """Return a column, (N,)."""
-        if name in self.columns:
-            return self.columns[name].values
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].values
         if name in self.fixed:
             return np.full(len(self), self.fixed[name])
         raise unknown_name("column", name, [*self.columns, *self.fixed])
 
     def unit(self, name: str) -> str:
         """Return the unit of a column or of a fixed parameter."""
-        if name in self.columns:
-            return self.columns[name].unit
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].unit
         if name in self.fixed:
             return str(self.problem.parameter(name).unit) if self.problem is not None else ""
         raise unknown_name("column", name, [*self.columns, *self.fixed])

@@ -16,6 +16,7 @@ from mjcont.numerics.loci import conditions_of, fold_locus_detectors, hopf_locus
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.system import Free, Local, System
 from mjcont.numerics.trace import Walker
+from mjcont.quantities import meant_each
 from mjcont.walkers import monitor_of
 
 CONTINUABLE = ("LP", "HB", "BP", "CP", "BT", "ZH")
@@ -82,7 +83,8 @@ def continue_special(
         )
     system = locus_system(point, kind, free)
     stop: Callable[[Any], str | None] | None = unfolding_stop(system) if kind == "BP" else None
-    detectors = locus_detectors(kind, system, settings, lyapunov, zeros or {})
+    zeros = meant_each(zeros, system.names, problem.observables)
+    detectors = locus_detectors(kind, system, settings, lyapunov, zeros)
     for name in end_at or ():
         if name not in KIND_NAMES:
             raise unknown_name("kind of special point", name, KIND_NAMES)

@@ -30,7 +30,7 @@ from mjcont.numerics.problem import Array, Linearization, Pencil, Values
 from mjcont.observables import model_observables
 from mjcont.parameters import Declaration, collect_parameters, declared_parameter
 from mjcont.paths import bush_names
-from mjcont.quantities import Parameter
+from mjcont.quantities import Parameter, told_apart
 from mjcont.readings import Observed, Readings
 from mjcont.writer import FieldWriter
 
@@ -50,7 +50,7 @@ class Mechanism(Observed):
     parameters : dict of str to Parameter
         Declared in the model, every control, gravity_angle and load_factor.
     observables : dict of str to Observable
-        Every sensor and joint position.
+        Every sensor and joint position. One that is called like a parameter is `joint:NAME` or `sensor:NAME`.
     declared : dict
         Parameters declared in Python or by path, as results store them.
     keyframes : dict of str to (nq,) array
@@ -85,7 +85,7 @@ class Mechanism(Observed):
         self.state_scale = loading.state_scale(model)
         self._geometry = geometry or Geometry(None)
         self.parameters = collect_parameters(loading.evaluation_copy(loading.copy_model(model)), self._geometry)
-        self.observables = model_observables(model)
+        self.observables = told_apart(model_observables(model), self.parameters)
         self.declared: dict[str, Any] = {}
         self.keyframes = loading.keyframes(model)
         self.constrained, self._passive = loading.is_constrained(model), features.passive(model)
@@ -163,6 +163,9 @@ class Mechanism(Observed):
         given = Declaration(name, unit, bounds, tuple(paths), function, value)
         parameter = declared_parameter(self._model_as_loaded(), self._geometry, given)
         self.parameters[name] = parameter
+        renamed = told_apart(self.observables, self.parameters)
+        self.observables.clear()
+        self.observables.update(renamed)
         self.declared[name] = given.record(parameter)
         if parameter.kind == "spec" and self._loaded.body_simple.any():
             self._own(self._geometry.with_layout(self._loaded, self.parameters), self.evaluations)

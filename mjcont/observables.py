@@ -28,9 +28,9 @@ _UNITS = {
 }
 
 
-def _entry(name: str, unit: str, field: str, index: int) -> Observable:
+def _entry(name: str, unit: str, field: str, index: int, of: str) -> Observable:
     """Return the observable that is an entry of a field of MuJoCo's data."""
-    return Observable(name, unit, lambda model, data: float(getattr(data, field)[index]), (field, index))
+    return Observable(name, unit, lambda model, data: float(getattr(data, field)[index]), (field, index), of)
 
 
 def joint_unit(model: mujoco.MjModel, joint: int) -> str:
@@ -78,7 +78,7 @@ def model_observables(model: mujoco.MjModel) -> dict[str, Observable]:
         unit, start, size = sensor_unit(model, s), int(model.sensor_adr[s]), int(model.sensor_dim[s])
         for k in range(size):
             label = name if size == 1 else f"{name}[{k}]"
-            found[label] = _entry(label, unit, "sensordata", start + k)
+            found[label] = _entry(label, unit, "sensordata", start + k, "sensor")
     aliases: dict[str, Observable] = {}
     for declaration in declarations(model):
         source = declaration.paths[0]
@@ -93,7 +93,7 @@ def model_observables(model: mujoco.MjModel) -> dict[str, Observable]:
         if mujoco.mjtJoint(model.jnt_type[j]) in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
             name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, j) or f"joint{j}"
             if name not in found:
-                found[name] = _entry(name, joint_unit(model, j), "qpos", int(model.jnt_qposadr[j]))
+                found[name] = _entry(name, joint_unit(model, j), "qpos", int(model.jnt_qposadr[j]), "joint")
     return found
 
 

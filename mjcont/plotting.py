@@ -17,6 +17,7 @@ from mjcont.errors import MjcontError
 from mjcont.numerics.problem import Array
 from mjcont.pathplots import axis_label, draw_path
 from mjcont.pathresults import LoadPath
+from mjcont.quantities import column_of
 from mjcont.storage import write_atomically
 
 if TYPE_CHECKING:
@@ -336,8 +337,9 @@ def _check(branches: Sequence[Any], legend: Sequence[str] | bool | None, paths: 
 
 def _unit(branch: Branch, name: str) -> str:
     """Return the unit of a column, also of a parameter that the branch holds fixed."""
-    if name in branch.columns or branch.problem is None:
-        return branch.units.get(name, "")
+    own = column_of(name, branch.columns)
+    if own is not None or branch.problem is None:
+        return branch.units.get(own or name, "")
     return str(branch.problem.parameter(name).unit)
 
 

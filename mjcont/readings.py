@@ -10,7 +10,7 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.problem import Array, Values
-from mjcont.quantities import Observable, Parameter
+from mjcont.quantities import Observable, Parameter, column_of, own_observable
 from mjcont.rows import Rows
 from mjcont.writer import FieldWriter
 
@@ -85,17 +85,25 @@ class Observed:
     """
 
     observables: dict[str, Observable]
+    parameters: dict[str, Parameter]
     _readings: Readings
 
     def observe(self, name: str, function: Callable[[Any, Any], float], unit: str = "") -> None:
-        """Add an observable computed by `function(model, data)` from MuJoCo's model and data."""
-        self.observables[name] = Observable(name, unit, function)
+        """Add an observable computed by `function(model, data)` from MuJoCo's model and data.
+
+        Raises
+        ------
+        ParameterError
+            If a parameter has this name.
+        """
+        self.observables[name] = own_observable(name, unit, function, self.parameters)
 
     def observable(self, name: str) -> Observable:
-        """Return the observable called `name`."""
-        if name not in self.observables:
+        """Return the observable called `name`; a parameter may have the same name (see `told_apart`)."""
+        own = column_of(name, self.observables)
+        if own is None:
             raise unknown_name("observable", name, self.observables)
-        return self.observables[name]
+        return self.observables[own]
 
     def measure(
         self,

@@ -27,6 +27,7 @@ from mjcont.numerics.multistart import Many, Runs, levenberg_marquardt, spectral
 from mjcont.numerics.newton import find_start, solve
 from mjcont.numerics.problem import Array
 from mjcont.numerics.system import System
+from mjcont.quantities import column_of, meant
 
 Region = Mapping[str, tuple[float, float]] | Callable[[Point], bool]
 
@@ -114,7 +115,8 @@ def _prepare(problem: Any, values: dict[str, float], region: Region | None) -> _
     held, notes = hold_rigid_modes(problem, home, values)
     single = bool(notes) or getattr(problem, "jacobian", None) is not None
     labels = problem.state_labels
-    coordinates = Coordinates(held, layout(labels, problem.state_scale, home, ranges))
+    entries = {name.removeprefix("joint:").removeprefix("state:"): ends for name, ends in ranges.items()}
+    coordinates = Coordinates(held, layout(labels, problem.state_scale, home, entries))
     search = _Search(held, values, coordinates, _many(held, values, coordinates, single), ranges, region, notes)
     search.learn_turns(labels)
     return search
@@ -135,7 +137,8 @@ def _ranges(problem: Any, region: Region | None) -> dict[str, tuple[float, float
     valid = [*problem.observables, *problem.parameters, *(name for name, _ in problem.state_labels)]
     ranges = {}
     for name, bounds in region.items():
-        if name not in valid:
+        own = meant(name, (), problem.observables)
+        if own not in valid:
             raise unknown_name("observable, joint or parameter", name, valid)
         try:
             low, high = (float(b) for b in bounds)
@@ -143,7 +146,7 @@ def _ranges(problem: Any, region: Region | None) -> dict[str, tuple[float, float
             raise BoundsError(f"region: {name} must have two numbers (low, high), got {bounds!r}") from error
         if not low < high:
             raise BoundsError(f"region: {name} must have low < high, got ({low:g}, {high:g})")
-        ranges[name] = (low, high)
+        ranges[own] = (low, high)
     return ranges
 
 
@@ -282,7 +285,7 @@ class _Search:
         zero (Poincare-Hopf), as long as no equilibrium is degenerate and no range of an angle is searched less.
         """
         slots = self.coordinates.slots
-        if len(self.coordinates.turning) < len(slots) or any(s.name in self.ranges for s in slots):
+        if len(self.coordinates.turning) < len(slots) or any(column_of(s.name, self.ranges) for s in slots):
             return None
         return int(round(sum(self.signs)))
 

@@ -14,6 +14,7 @@ from mjcont.continuation import check_bounds
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.loadpaths import LANDINGS
 from mjcont.loci import CONTINUABLE
+from mjcont.quantities import column_of
 from mjcont.schema import Table
 from mjcont.shapes import read_input
 from mjcont.stepping import INTEGRATORS
@@ -118,7 +119,7 @@ def _check_history(found: dict[str, Any], table: Table, context: Context) -> Non
     _one_start(found, table)
     valid = [*found["inputs"], *context.mechanism.observables]
     for i, name in enumerate(found["columns"]):
-        if name not in valid:
+        if column_of(name, valid) is None:
             raise table.error(f"columns[{i}]", unknown_name("input or observable", name, valid))
     found["start"] = {**context.common, **found["start"]}
 

@@ -17,7 +17,7 @@ from mjcont.numerics.differences import (
     jacobian_steps,
 )
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
-from mjcont.quantities import Observable, Parameter, default_bounds
+from mjcont.quantities import Observable, Parameter, column_of, default_bounds, own_observable, told_apart
 
 
 class VectorField:
@@ -74,9 +74,11 @@ class VectorField:
         if len(labels) != self.n:
             raise ParameterError(f"names: expected {self.n} names for the components of u, got {len(labels)}")
         self.state_labels = [(label, units.get(label, "")) for label in labels]
-        self.observables = {
-            label: Observable(label, unit, _component(i)) for i, (label, unit) in enumerate(self.state_labels)
+        components = {
+            label: Observable(label, unit, _component(i), of="state")
+            for i, (label, unit) in enumerate(self.state_labels)
         }
+        self.observables = told_apart(components, self.parameters)
         self.keyframes: dict[str, Array] = {}
 
     def parameter(self, name: str) -> Parameter:
@@ -184,13 +186,14 @@ class VectorField:
 
     def observe(self, name: str, function: Callable[[Array, Values], float], unit: str = "") -> None:
         """Add an observable computed by `function(u, p)`."""
-        self.observables[name] = Observable(name, unit, lambda values, x: function(x, values))
+        self.observables[name] = own_observable(name, unit, lambda values, x: function(x, values), self.parameters)
 
     def observable(self, name: str) -> Observable:
         """Return the observable called `name`."""
-        if name not in self.observables:
+        own = column_of(name, self.observables)
+        if own is None:
             raise unknown_name("observable", name, self.observables)
-        return self.observables[name]
+        return self.observables[own]
 
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables for states (m, n), shape (m, number of names)."""
