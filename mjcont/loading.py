@@ -81,6 +81,12 @@ def compile_spec(spec: mujoco.MjSpec) -> mujoco.MjModel:
         raise ModelError(f"model '{spec.modelname}': MuJoCo cannot compile it: {_one_line(error)}") from error
 
 
+def parse_present(text: str, folder: Path | None, label: str) -> tuple[mujoco.MjSpec, tuple[str, ...]]:
+    """Return the spec of an XML text without what needs missing files, and what that means, a sentence each."""
+    spec = parse(text, folder, label)
+    return spec, assets.drop_missing(spec, (folder or Path()).resolve())
+
+
 def load(source: str | Path) -> tuple[mujoco.MjModel, str, tuple[str, ...], Geometry]:
     """Return the compiled model of a source, XML that stands alone, notes for the user, and the spec behind it.
 
@@ -101,6 +107,18 @@ def load(source: str | Path) -> tuple[mujoco.MjModel, str, tuple[str, ...], Geom
             spec, place = parse(text, None, "with everything it includes"), Path()
             model = compile_spec(spec)
     return model, text, notes, Geometry(spec, place if folder is not None and not rewritten else None)
+
+
+def load_spec(spec: mujoco.MjSpec) -> tuple[mujoco.MjModel, str, tuple[str, ...], Geometry]:
+    """Return what `load` does, of a copy of a spec."""
+    own = spec.copy()
+    own.modelfiledir = spec.modelfiledir
+    dropped = assets.drop_missing(own, Path(spec.modelfiledir or ".").resolve())
+    notes = tuple(dict.fromkeys((*assets.read_notes(own), *dropped)))
+    if dropped:
+        assets.write_notes(own, notes)
+    model = compile_spec(own)
+    return model, exact_text(own), notes, Geometry(own.copy())
 
 
 def _one_line(error: Warning | Exception | str) -> str:

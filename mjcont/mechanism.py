@@ -24,7 +24,6 @@ from mjcont.derivatives import Derivatives
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.evaluation import Evaluator
 from mjcont.geometry import Geometry, refuse_overlap
-from mjcont.mjcf import exact_text
 from mjcont.numerics.differences import Stencil
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
 from mjcont.observables import model_observables
@@ -125,8 +124,9 @@ class Mechanism(Observed):
 
     @classmethod
     def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
-        """Take an `MjSpec` (copied)."""
-        return cls(loading.compile_spec(spec), exact_text(spec), friction, geometry=Geometry(spec.copy()))
+        """Take an `MjSpec` (copied), without what needs files that are not there."""
+        model, text, notes, geometry = loading.load_spec(spec)
+        return cls(model, text, friction, notes, geometry)
 
     @classmethod
     def from_model(cls, model: mujoco.MjModel, *, friction: str = "frictionless") -> Mechanism:
