@@ -15,9 +15,10 @@ from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError, 
 from mjcont.numerics.arclength import CurvePoint, first_point
 from mjcont.numerics.equilibria import square_system
 from mjcont.numerics.events import Located, ScalarZero
-from mjcont.numerics.newton import Corrected, find_start, solve
+from mjcont.numerics.newton import Corrected, solve
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
+from mjcont.numerics.starts import find_start
 from mjcont.numerics.system import Free, System
 from mjcont.numerics.trace import Walker
 from mjcont.quantities import column_of, meant_each
@@ -99,16 +100,26 @@ def find_equilibrium(
     problem, _ = hold_rigid_modes(problem, x, values)
     found = find_start(problem, x, values)
     if found.failure:
-        raise StartError(f"no equilibrium found from {_start_name(start, keyframe, state)}: {found.failure}")
+        raise _no_start(problem, _start_name(problem, start, keyframe, state), found.failure)
     return make_point(problem, found.x, values)
 
 
-def _start_name(start: Any, keyframe: str | None, state: Any) -> str:
+def _no_start(problem: Any, origin: str, failure: str) -> StartError:
+    """Return the error that says why no equilibrium was found from a start, and what to do."""
+    more = "give a state nearer to one" if problem.second_order else "give u0 or a state nearer to one"
+    return StartError(
+        f"no equilibrium found from {origin}: {failure}. find_equilibria searches without a start; or {more}"
+    )
+
+
+def _start_name(problem: Any, start: Any, keyframe: str | None, state: Any) -> str:
     if state is not None:
         return "the given state"
     if keyframe is not None:
         return f"keyframe '{keyframe}'"
-    return "the given point" if isinstance(start, Point) else "the model's initial pose"
+    if isinstance(start, Point):
+        return "the given point"
+    return "the model's initial pose" if problem.second_order else "u0"
 
 
 def continue_equilibria(
@@ -248,9 +259,9 @@ def _prepare(
     if notes:
         problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
     found = find_start(problem, x, values)
-    origin = _start_name(start, keyframe, state)
+    origin = _start_name(problem, start, keyframe, state)
     if found.failure:
-        raise StartError(f"no equilibrium found from {origin}: {found.failure}")
+        raise _no_start(problem, origin, found.failure)
     system = System(problem, values, [Free(parameter, low, high, problem.parameter(parameter).unit)])
     neutral: list[Located] = []
     walker = equilibrium_walker(

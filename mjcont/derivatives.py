@@ -11,7 +11,7 @@ from mjcont.evaluation import Evaluator
 from mjcont.numerics.differences import FORWARD, Stencil, jacobian_from_rows, jacobian_steps, stencil
 from mjcont.numerics.problem import Array, Linearization, Values
 from mjcont.quantities import Parameter
-from mjcont.sides import difference_rule, one_sided, parameter_rate
+from mjcont.sides import difference_rule, on_one_side, parameter_rate
 from mjcont.writer import FieldWriter
 
 # states whose derivatives share a batch, where they have few degrees of freedom
@@ -49,17 +49,18 @@ class Derivatives:
         f, sides = rows[0].copy(), self.evaluator.sides
         jac = jacobian_from_rows(rows[1:], self.scale, rule)
         if sides and not self.writer.failure:
-            jac = one_sided(jac, rows, sides, steps, lambda finer: self._pieces(x, finer))
+            jac = on_one_side(jac, rows, sides, steps, lambda finer: self._pieces(x, finer), accurate)
+        piece = b"".join(sides[:1])
         if len(riders) == len(wrt):
-            return Linearization(f, jac, rates.T)
+            return Linearization(f, jac, rates.T, piece)
         par = np.empty((len(f), len(wrt)))
         for k, name in enumerate(wrt):
             if name in riders:
                 par[:, k] = rates[riders.index(name)]
             else:
-                par[:, k] = self._in_parameter(x, values, name, f, spans[k] if spans else None, b"".join(sides[:1]))
+                par[:, k] = self._in_parameter(x, values, name, f, spans[k] if spans else None, piece)
         self.writer.write(self.parameters, values)
-        return Linearization(f, jac, par)
+        return Linearization(f, jac, par, piece)
 
     def _with_riders(self, x: Array, values: Values, moved: Array, riders: Sequence[str]) -> tuple[Array, Array]:
         """Return forces at x and at `moved`, and their rates (len(riders), nv) in controls that ride in the batch."""

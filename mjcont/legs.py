@@ -82,7 +82,7 @@ class Leg:
         if FRACTION not in wrt:
             return lin
         slope = lin.par @ np.array([self.last[n] - self.first[n] for n in names])
-        return Linearization(lin.f, lin.jac, slope[:, None])
+        return Linearization(lin.f, lin.jac, slope[:, None], lin.piece)
 
     def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""

@@ -214,6 +214,11 @@ class Mechanism(Observed):
         self._writer.write(self.parameters, values)
         return self._evaluator.forces(self.retract_each(x, steps)).copy()
 
+    @property
+    def pieces(self) -> list[bytes]:
+        """On which smooth piece of the forces each row of the last evaluation lies; empty where they are smooth."""
+        return self._evaluator.sides
+
     def side_by_side(self, name: str) -> bool:
         """Whether states that differ in a parameter are evaluated in one batch: the forces are smooth, it a control."""
         return not self._held and self._derivatives.side_by_side(name)
@@ -243,7 +248,7 @@ class Mechanism(Observed):
             return found
         mass = self._evaluator.mass(x)
         held = rigid.rate(found.jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
-        return Linearization(found.f, found.jac - held, found.par)
+        return Linearization(found.f, found.jac - held, found.par, found.piece)
 
     def parameter_stencil(self, name: str, value: float, span: float | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""

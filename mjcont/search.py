@@ -24,8 +24,9 @@ from mjcont.found import Account, Equilibria, gather, same_spectrum
 from mjcont.numerics.coordinates import Coordinates, layout, with_turns
 from mjcont.numerics.deflation import Deflation, newton
 from mjcont.numerics.multistart import Many, Runs, levenberg_marquardt, spectral_step
-from mjcont.numerics.newton import find_start, solve
+from mjcont.numerics.newton import solve
 from mjcont.numerics.problem import Array
+from mjcont.numerics.starts import find_start
 from mjcont.numerics.system import System
 from mjcont.quantities import column_of, meant
 

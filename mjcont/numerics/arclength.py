@@ -197,6 +197,7 @@ def advance(
     """
     prediction = system.admissible(point.x, predict(point, h))
     x, y = system.move(point.x, point.y, prediction)
+    fresh = fresh and not _beyond_a_kink(system, point, x, y)
     extrapolated = not (fresh or system.conditions or sparse.issparse(point.jac))
     expected = _TRUST * point.rate if extrapolated and len(point.past) == _PAST else math.inf
     lu = None if fresh else Factored(with_row(_matrix_ahead(point, h) if extrapolated else point.jac, point.tangent))
@@ -213,6 +214,13 @@ def advance(
     if new.angle > settings.angle_max:
         return f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg"
     return new
+
+
+def _beyond_a_kink(system: System, point: CurvePoint, x: Array, y: Array) -> bool:
+    """Whether (x, y) lies on another smooth piece of f than a point, so that its derivatives are not the curve's."""
+    if not getattr(system.problem, "nonsmooth", False):
+        return False
+    return system.local(x, y).piece != point.local.piece
 
 
 def next_step(h: float, new: CurvePoint, settings: Settings, growth: float = _GROWTH) -> float:

@@ -30,11 +30,13 @@ class Linearization:
     f : (n,) residual.
     jac : (n, n) df/dx, dense or scipy.sparse.
     par : (n, k) df/dp for the k parameters asked for.
+    piece : the smooth piece of f on which the point lies.
     """
 
     f: Array
     jac: Any
     par: Array
+    piece: bytes = b""
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.bordered import border, largest_in_rows
+from mjcont.numerics.differences import pieces
 from mjcont.numerics.problem import Array, Pencil, Problem, Values
 
 _LOG_SPAN = 1e3
@@ -73,7 +74,7 @@ class Free:
 class Local:
     """What is known of the problem at one (x, p): computed on demand, once."""
 
-    __slots__ = ("_jac", "_lin", "_pencil", "_residual", "accurate", "problem", "spans", "values", "wrt", "x")
+    __slots__ = ("_jac", "_lin", "_pencil", "_piece", "_residual", "accurate", "problem", "spans", "values", "wrt", "x")
 
     def __init__(
         self,
@@ -90,6 +91,7 @@ class Local:
         self._lin: Any = None
         self._pencil: Pencil | None = None
         self._residual: Array | None = None
+        self._piece: bytes | None = None
 
     @property
     def f(self) -> Array:
@@ -99,6 +101,16 @@ class Local:
         if self._residual is None:
             self._residual = self.problem.residual(self.x, self.values)
         return self._residual
+
+    @property
+    def piece(self) -> bytes:
+        """The smooth piece of f on which the point lies; the same everywhere where f is smooth."""
+        if self._lin is not None:
+            return self._lin.piece
+        if self._piece is None:
+            self._residual = self.problem.residual(self.x, self.values)
+            self._piece = next(iter(pieces(self.problem)), b"")
+        return self._piece
 
     def keep(self, residual: Array) -> None:
         """Take the residual, (n,), computed elsewhere."""
