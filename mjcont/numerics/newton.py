@@ -24,7 +24,7 @@ _LARGEST_STEP = 2.0
 # a step that was to be the last and is followed by one so many times longer did not lead to the curve
 _JUMPS = 10.0
 # chord steps that differ by less are the same one again; how often it is doubled
-_SAME_STEP, _DOUBLINGS = 0.1, 30
+_SAME_STEP, _DOUBLINGS = 0.1, 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,14 +127,18 @@ def correct(
     local, iterations = system.local(x, y), 0
     steps: list[Array] = []
     chord: Array | None = None
+    creeps = False
     while iterations < settings.max_corrections:
         iterations += 1
         if lu is None:
             lu, steps, chord = Factored(matrix_with_row(system, local, y, row)), [], None
         before, chord = chord, _newton_step(system, local, y, lu, row)[0]
         if before is not None and length(chord - before) <= _SAME_STEP * length(before):
+            if creeps:
+                failure = "the corrector stands still"
+                break
             x, y, local = _crept(system, x, y, chord, lu, row)
-            chord, steps, size = None, [], np.inf
+            creeps, chord, steps, size = True, None, [], np.inf
             continue
         step = _broyden(chord, steps)
         last, size = size, length(step)

@@ -23,7 +23,7 @@ _NO_Y = np.zeros(0)
 # damped Newton steps: most of them, the least part of one, the scaled step at which they end
 _DAMPED, _LEAST, _DONE = 100, 1e-6, 1e-7
 # corrections of one implicit step of the motion, and the part of its length at which they end
-_CORRECTIONS, _CLOSE = 15, 1e-3
+_CORRECTIONS, _CLOSE = 15, 0.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,8 +109,9 @@ def _solved(matrix: Any, rhs: Array) -> Array:
 def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array, str]:
     """Follow M x' = f by implicit steps whose length grows while the motion is smooth.
 
-    Each is one Newton step, (M/dt + K) dx = f, where f is smooth. Where a step may make or break contact the implicit
-    equation M dx = dt f(x + dx) is solved: one Newton step alone would throw what touches off, and let it fall again.
+    Each is one Newton step, (M/dt + K) dx = f, while that stays on one smooth piece of f. Where it makes or breaks
+    contact the implicit equation M dx = dt f(x + dx) is solved: one Newton step alone would throw what touches off, and
+    let it fall again.
     """
     problem, no_y, nonsmooth = system.problem, _NO_Y, getattr(system.problem, "nonsmooth", False)
     scale = problem.state_scale
@@ -118,7 +119,9 @@ def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array,
     mass = _mass_like(local)
     dt = _first_dt(local, mass)
     for _ in range(most):
-        dx = _implicit(system, local, mass, dt) if nonsmooth else solve_linear(mass / dt - local.raw_jac, local.f)
+        dx = solve_linear(mass / dt - local.raw_jac, local.f)
+        if nonsmooth and system.local(problem.retract(x, dx), no_y).piece != local.piece:
+            dx = _implicit(system, local, mass, dt)
         size = float(np.max(np.abs(dx) / scale))
         if not np.isfinite(size) or size > 0.2:
             dt *= 0.25
