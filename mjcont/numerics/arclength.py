@@ -197,11 +197,12 @@ def advance(
     """
     prediction = system.admissible(point.x, predict(point, h))
     x, y = system.move(point.x, point.y, prediction)
-    fresh = fresh and not _beyond_a_kink(system, point, x, y)
+    local = system.local(x, y)
+    fresh = fresh and not _beyond_a_kink(system, point, local)
     extrapolated = not (fresh or system.conditions or sparse.issparse(point.jac))
     expected = _TRUST * point.rate if extrapolated and len(point.past) == _PAST else math.inf
     lu = None if fresh else Factored(with_row(_matrix_ahead(point, h) if extrapolated else point.jac, point.tangent))
-    c = correct(system, x, y, point.tangent, lu, settings, expected)
+    c = correct(system, x, y, point.tangent, lu, settings, expected, _WANDER * abs(h), local)
     if c.failure:
         return c.failure
     chord = system.difference(c.x, c.y, point.x, point.y)
@@ -216,11 +217,9 @@ def advance(
     return new
 
 
-def _beyond_a_kink(system: System, point: CurvePoint, x: Array, y: Array) -> bool:
-    """Whether (x, y) lies on another smooth piece of f than a point, so that its derivatives are not the curve's."""
-    if not getattr(system.problem, "nonsmooth", False):
-        return False
-    return system.local(x, y).piece != point.local.piece
+def _beyond_a_kink(system: System, point: CurvePoint, local: Local) -> bool:
+    """Whether an evaluation lies on another smooth piece of f than a point: its derivatives are not the curve's."""
+    return bool(getattr(system.problem, "nonsmooth", False)) and local.piece != point.local.piece
 
 
 def next_step(h: float, new: CurvePoint, settings: Settings, growth: float = _GROWTH) -> float:

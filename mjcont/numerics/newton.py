@@ -23,8 +23,8 @@ LARGEST_ERROR = 1e-7
 _LARGEST_STEP = 2.0
 # a step that was to be the last and is followed by one so many times longer did not lead to the curve
 _JUMPS = 10.0
-# chord steps that differ by less are the same one again; how often it is doubled
-_SAME_STEP, _DOUBLINGS = 0.1, 16
+# chord steps that differ by less are the same one again; how often it is doubled, and how far a prediction may lift off
+_SAME_STEP, _DOUBLINGS, _LIFT = 0.1, 30, 5e-4
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,16 +115,19 @@ def correct(
     lu: Factored | None,
     settings: Settings,
     expected: float = np.inf,
+    reach: float = np.inf,
+    local: Local | None = None,
 ) -> Corrected:
     """Return to the curve from a prediction, moving orthogonally to `row`.
 
     Broyden steps from `lu` while they contract, renewed derivatives when they do not; a last Newton step with
     derivatives at the solution takes the point to the noise floor. `expected` is the contraction of the first step
-    with `lu`, where the last points tell it: one step may then be enough.
+    with `lu`, where the last points tell it: one step may then be enough. A point farther than `reach` from the
+    prediction would be refused. `local` is the evaluation at the prediction, where there is one.
     """
     size, ratio, failure = np.inf, 0.0, "the corrector did not converge"
     tol = settings.tol
-    local, iterations = system.local(x, y), 0
+    local, iterations = local or system.local(x, y), 0
     steps: list[Array] = []
     chord: Array | None = None
     creeps = False
@@ -137,7 +140,7 @@ def correct(
             if creeps:
                 failure = "the corrector stands still"
                 break
-            x, y, local = _crept(system, x, y, chord, lu, row)
+            x, y, local = _crept(system, x, y, chord, lu, row, reach)
             creeps, chord, steps, size = True, None, [], np.inf
             continue
         step = _broyden(chord, steps)
@@ -189,8 +192,10 @@ def _polished(
     return Corrected(x, y, local, factored, 0, 0.0, size, error, failure, jac, size / max(last, 1e-300))
 
 
-def _crept(system: System, x: Array, y: Array, chord: Array, lu: Factored, row: Array) -> tuple[Array, Array, Local]:
-    """Return (x, y) moved by as many times a chord step as leave the next one the same, doubled each time.
+def _crept(
+    system: System, x: Array, y: Array, chord: Array, lu: Factored, row: Array, reach: float
+) -> tuple[Array, Array, Local]:
+    """Return (x, y) moved by as many chord steps as leave the next one the same, doubled each time, up to `reach`.
 
     A prediction that lifts a stiff contact off by many times its yield is brought back by that yield in each step: a
     contact that is open has no force, however far it is open.
@@ -199,7 +204,7 @@ def _crept(system: System, x: Array, y: Array, chord: Array, lu: Factored, row: 
         x, y = system.move(x, y, 2.0**doublings * chord)
         local = system.local(x, y)
         following = _newton_step(system, local, y, lu, row)[0]
-        if length(following - chord) > _SAME_STEP * length(chord):
+        if length(following - chord) > _SAME_STEP * length(chord) or 2.0**doublings * length(chord) > min(reach, _LIFT):
             break
     return x, y, local
 
