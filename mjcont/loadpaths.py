@@ -290,7 +290,7 @@ def _cut(branch: Branch, forward: int, target: float, name: str) -> tuple[Branch
     special = {p.index: p for p in branch.special_points}
     if status == "at special point":
         last = len(order) - 1
-    elif status in ("stopped", "at bound"):
+    elif status in ("stopped", "at bound", "breaks off"):
         corners = [k for k, i in enumerate(order) if i in special and special[int(i)].kind in ("CO", "BP")]
         calm = [k for k, i in enumerate(order) if branch.n_unstable[i] == 0]
         last = corners[-1] if corners and corners[-1] >= len(order) - 2 else max(calm[-1] if calm else 0, 0)
@@ -301,7 +301,7 @@ def _cut(branch: Branch, forward: int, target: float, name: str) -> tuple[Branch
     travel = branch.problem.difference(branch.states[at], branch.states[before])
     point: Point = special.get(at, branch.row(at))
     kind = point.kind if isinstance(point, SpecialPoint) else "lost"
-    if kind == "CO":
+    if kind == "CO" and last + 1 < len(order):
         along = branch.problem.difference(branch.states[int(order[last + 1])], branch.states[at])
     else:
         along = _critical(branch.problem, point, kind, travel)

@@ -321,3 +321,19 @@ def land(
     new.s += arc(length(chord), math.cos(new.angle))
     new.past = remembered(point, chord)
     return new
+
+
+def land_beside(
+    system: System, point: CurvePoint, index: int, target: float, settings: Settings
+) -> CurvePoint | str:
+    """Return the point of the curve at which y[index] = target, a hair away from one of its points."""
+    row = np.zeros(system.n + system.k)
+    row[system.n + index] = 1.0
+    y = point.y.copy()
+    y[index] = target
+    c = correct(system, point.x, y, row, None, settings)
+    if c.failure:
+        return c.failure
+    new = point_from(c, point.tangent, point.s)
+    new.s += length(system.difference(c.x, c.y, point.x, point.y))
+    return new

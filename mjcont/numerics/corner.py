@@ -31,6 +31,8 @@ _SMALL = 3e-17
 _APPROACH, _CURVED, _ROUGH = 0.97, 1e-7, 1e-2
 # chord steps from the tangent to the curve, and how far before a corner they may start
 _CHORDS, _SHORT = 2, (1e-13, 3e-12, 3e-11, 1e-9)
+# scaled residuals: of points on a tangent that may lie beyond a jump of the forces, and a hair beyond one
+_BROKEN, _JUMP = 1e-6, 1e-9
 # a tangent turns clearly by more than this angle, and at a corner if it does within this distance of it
 _CLEAR = 0.1
 _AT = 1e-5
@@ -118,7 +120,8 @@ def _cross(system: System, point: CurvePoint, settings: Settings, piece: Piece) 
     beyond = system.move(x, y, _LEAVE * point.tangent)
     after = piece(*beyond)
     tangent = tangent_at(system, system.local(*beyond), beyond[1])
-    if np.any(np.isnan(tangent)):  # no model there carries no load: an edge, not a corner
+    # no model there carries no load: an edge, not a corner; nor is a place where forces jump
+    if np.any(np.isnan(tangent)) or _jumps(system, point, x, y):
         return None
     # stiff stops hardly yield: a probe must move the state by more than the corner is known to
     moves = float(np.linalg.norm(tangent[: system.n]))
@@ -135,6 +138,35 @@ def _cross(system: System, point: CurvePoint, settings: Settings, piece: Piece) 
         note += f"; {system.names[0]} turns back: a non-smooth fold"
     corner = _corrected(system, point, reach)
     return new, Located("CO", corner, _SHARP, True, {}, note)
+
+
+def break_off(system: System, point: CurvePoint) -> Located | None:
+    """Return the place just ahead of `point` at which forces jump, so that no equilibria follow; None if there is none.
+
+    It is where adhesion lets go, or a contact with a margin of its own is lost under load.
+    """
+    if not getattr(system.problem, "nonsmooth", False):
+        return None
+    reach = _distance(system, point, lambda x, y: _imbalance(system, point, x, y) > _BROKEN, _EXACT)
+    if reach is None:
+        return None
+    x, y = system.move(point.x, point.y, reach * point.tangent)
+    if not _jumps(system, point, x, y):
+        return None
+    changes = describe(loaded_at(system, point), loaded(system, x, y))
+    note = (f"{changes}: " if changes else "") + "forces jump, and no equilibria follow"
+    return Located("CO", _corrected(system, point, reach), _SHARP, True, {}, note)
+
+
+def _imbalance(system: System, point: CurvePoint, x: Array, y: Array) -> float:
+    """Return the largest scaled residual at (x, y), by the sizes of the equations at a point beside it."""
+    return system.error(point.local, x, y)
+
+
+def _jumps(system: System, point: CurvePoint, x: Array, y: Array) -> bool:
+    """Whether forces at (x, y), a hair beyond a kink, are out of balance by more than any stiffness there tells."""
+    beyond = system.local(x, y)
+    return min(_imbalance(system, point, x, y), system.error(beyond, x, y)) > _JUMP
 
 
 def _approached(

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.numerics.arclength import CurvePoint, advance, by_contraction, land, may_turn_twice, next_step
-from mjcont.numerics.corner import NEAR, cross
+from mjcont.numerics.arclength import CurvePoint, advance, by_contraction, land, land_beside, may_turn_twice, next_step
+from mjcont.numerics.corner import NEAR, break_off, cross
 from mjcont.numerics.events import Detector, Located, Retry
 from mjcont.numerics.interior import Interior
 from mjcont.numerics.longsteps import LongSteps
@@ -201,9 +201,25 @@ class Walker:
             if h < NEAR and not self.system.conditions:
                 crossed = cross(self.system, point, self.settings)
                 if crossed is not None:
-                    return Step([crossed[1], crossed[0]], self.settings.ds)
+                    return self._crossed(*crossed)
             if h < self.settings.ds_min:
+                broken = None if self.system.conditions else break_off(self.system, point)
+                if broken is not None:
+                    return Step([broken], 0.0, End(Status.BREAKS_OFF, f"{broken.note} at {self._where(broken.point)}"))
                 return End(Status.STEP_TOO_SMALL, f"step below ds_min at {self._where(point)}: {reason}")
+
+    def _crossed(self, new: CurvePoint, corner: Located) -> Step:
+        """Return the step across a corner; where it leads over a bound, it ends there."""
+        outside = self._outside(new)
+        if outside is None:
+            return Step([corner, new], self.settings.ds)
+        index, target, message = outside
+        end = End(Status.AT_BOUND, message)
+        inside = self._outside(corner.point) is None
+        base = new if inside else corner.point
+        landed = land_beside(self.system, base, index, target, self.settings)
+        items: list[CurvePoint | Located] = [corner] if inside else []
+        return Step(items if isinstance(landed, str) else [*items, landed], 0.0, end)
 
     def _try(self, point: CurvePoint, h: float) -> Step | tuple[str, float]:
         """Return the step of length h with what lies within, or why it is refused and the length to try instead."""
