@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mjcont.branch import Branch, Column, Point, SpecialPoint, show
-from mjcont.curverows import CROSSINGS, CurveRows, curve_rows
+from mjcont.curverows import CROSSINGS, MARGINAL, CurveRows, curve_rows
 from mjcont.errors import StartError
 from mjcont.numerics.arclength import CurvePoint, first_point, turned_back
 from mjcont.numerics.events import Located
@@ -182,8 +182,11 @@ def build_branch(
     problem: Any = system.problem
     words, counts, spectra = rows.stability()
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
-    crossings = [i for i, e in enumerate(rows.located) if e is not None and e.kind in CROSSINGS]
+    crossings = [i for i, e in enumerate(rows.located) if e is not None and e.kind in MARGINAL]
     stability[crossings] = "marginal"
+    for i in crossings:
+        if (known := spectra[i]) is not None and rows.located[i].kind not in CROSSINGS:  # type: ignore[union-attr]
+            n_unstable[i] = known.beyond_axis()
     base = rows.values(0)
     lead = system.names[0]
     if len(system.free) == 1 and lead in problem.parameters:

@@ -19,6 +19,8 @@ from mjcont.numerics.system import System
 
 # special points at which eigenvalues pass the axis
 CROSSINGS = ("LP", "HB", "BP")
+# those at which some lie on it
+MARGINAL = (*CROSSINGS, "CP", "BT", "GH", "ZH", "HH")
 
 
 @dataclass(frozen=True, slots=True)

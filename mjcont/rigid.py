@@ -8,7 +8,8 @@ stability; the residual is untouched, since it has no component along them.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import islice
 from typing import Any
 
 import mujoco
@@ -22,7 +23,7 @@ _THROUGH = re.compile(r"(rotation about [xyz]) through \((.*)\)")
 _RIGID = 1e-9
 _NOTHING = 1e-12
 _SAME = 1e-6
-_STATES = 12
+_STATES, _TURNED = 12, 2
 # states after which it may be plain already that something opposes every motion
 _EARLY = (0, 3, 6)
 _STIFF = 1e-5  # a soft constraint stiffens with its violation, which differences see as a force
@@ -164,15 +165,30 @@ def without_modes(step: np.ndarray, mass: np.ndarray, z: np.ndarray) -> np.ndarr
     return step - z @ np.linalg.solve(z.T @ mass @ z, z.T @ (mass @ step))
 
 
+def _hinges(labels: Sequence[tuple[str, str]]) -> list[int]:
+    """Return the tangent coordinates of hinges from the name and unit of each entry of a state."""
+    found, tangent, entries = [], 0, iter(labels)
+    for name, unit in entries:
+        if name.endswith(".q0"):  # a quaternion: four entries, three coordinates
+            tangent += 3
+            list(islice(entries, 3))
+            continue
+        if unit == "rad":
+            found.append(tangent)
+        tangent += 1
+    return found
+
+
 def full_turns(problem: Any, x: np.ndarray, values: Values) -> np.ndarray:
     """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
     found = np.full(problem.n, np.inf)
-    hinges = [j for j, (_, unit) in enumerate(problem.state_labels) if unit == "rad" and problem.nq == problem.n]
-    beside = problem.retract(x, 0.1 * problem.state_scale * np.cos(1.0 + np.arange(problem.n)))
+    hinges = _hinges(problem.state_labels)
     turns = 2.0 * np.pi * np.eye(problem.n)[hinges]
-    rows = problem.residuals(beside, values, np.concatenate([np.zeros((1, problem.n)), turns]))
-    change = np.abs(rows[1:] - rows[0]).max(axis=1, initial=0.0)
-    for j, c in zip(hinges, change, strict=True):
-        if c <= 1e-9 * np.abs(rows[0]).max():
-            found[j] = 2.0 * np.pi
+    change, largest = np.zeros(len(hinges)), 0.0
+    for k in range(_TURNED):  # one of several states: f may vanish in any one of them
+        beside = problem.retract(x, (0.1 + 0.3 * k) * problem.state_scale * np.cos(1.0 + k + np.arange(problem.n)))
+        rows = problem.residuals(beside, values, np.concatenate([np.zeros((1, problem.n)), turns]))
+        change = np.maximum(change, np.abs(rows[1:] - rows[0]).max(axis=1, initial=0.0))
+        largest = max(largest, float(np.abs(rows[0]).max()))
+    found[[j for j, c in zip(hinges, change, strict=True) if c <= 1e-9 * largest]] = 2.0 * np.pi
     return found

@@ -42,6 +42,7 @@ _BARREN = 8
 _SINGULAR = 1e-9
 _CONTINUUM = 20
 _ROUNDS_FOR_NONE = 3
+_UNEVEN = 1.0 / math.e
 
 
 def find_equilibria(
@@ -206,7 +207,8 @@ class _Search:
 
     def learn_turns(self, labels: Any) -> None:
         """Give a period to the angles whose full turns change nothing."""
-        cube = qmc.Halton(self.problem.n, scramble=False).random(4)[1:]
+        # even points of symmetric ranges are often equilibria themselves, at which f is rounding
+        cube = (qmc.Halton(self.problem.n, scramble=False).random(4)[1:] + _UNEVEN) % 1.0
         states = self.coordinates.draw(cube)
         slots = with_turns(self.coordinates.slots, labels, states, self.many.residuals)
         self.coordinates = Coordinates(self.problem, slots)

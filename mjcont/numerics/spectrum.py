@@ -25,6 +25,8 @@ _DIFFERENCE_NOISE = 1e-10
 _ROUNDING = 1e-13
 _EIGENSOLVER = 1e-15
 _RIGID = 1e-7
+# an eigenvalue that is to lie on the axis strays from it by no more than this part of the largest: zeros are double
+_ON_AXIS = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +47,11 @@ class Spectrum:
     n_unstable: int
     noise: Array
     conservative: bool
+
+    def beyond_axis(self) -> int:
+        """Return how many eigenvalues have a positive real part, where some are known to lie on the axis."""
+        size = float(np.abs(self.eigenvalues).max(initial=0.0))
+        return int(np.count_nonzero(self.eigenvalues.real > np.maximum(self.noise, _ON_AXIS * size)))
 
     def pair_count(self) -> int:
         """Return how many pairs of eigenvalues have a positive sum (complex pairs, and pairs of real ones).

@@ -308,7 +308,7 @@ class Walker:
     def _periods(self, start: CurvePoint) -> Array:
         """Return the periods of the scaled state coordinates, infinite where a coordinate has none, (n,)."""
         problem: Any = self.system.problem
-        if self.system.conditions or not hasattr(problem, "periods"):
+        if not hasattr(problem, "periods"):
             return np.full(self.system.n, np.inf)
         if self._turns is None:
             self._turns = problem.periods(start.x, self.system.values(start.y)) / problem.state_scale
