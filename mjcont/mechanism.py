@@ -19,7 +19,7 @@ from weakref import WeakSet
 import mujoco
 import numpy as np
 
-from mjcont import features, loading, rigid
+from mjcont import features, loading, parts, rigid
 from mjcont.derivatives import Derivatives
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.evaluation import Evaluator
@@ -291,8 +291,14 @@ class Mechanism(Observed):
     # -- rigid-body zero modes -------------------------------------------------------------------------------
 
     def rigid_modes(self, x: Array, values: Values, among: Sequence[str] | None = None) -> tuple[str, ...]:
-        """Return the names of the rigid-body motions that no force opposes near a state, of all or `among` some."""
-        return rigid.zero_modes(self.holding(()), self._model, self._evaluator.position, x, values, among)
+        """Return the names of the motions, of the whole model or of its parts, that no force opposes near a state.
+
+        They are sought among all, or `among` some.
+        """
+        free, model, position = self.holding(()), self._model, self._evaluator.position
+        own, rest = (None, None) if among is None else parts.divided(among)
+        whole = rigid.zero_modes(free, model, position, x, values, rest) if rest is None or rest else ()
+        return (*whole, *parts.zero_modes(free, model, position, x, values, whole, own))
 
     @property
     def held(self) -> tuple[str, ...]:
@@ -301,7 +307,13 @@ class Mechanism(Observed):
 
     def rigid_directions(self, x: Array) -> dict[str, Array]:
         """Return the tangent vectors (nv,) along the held rigid-body modes, by name."""
-        return rigid.directions(self._model, self._evaluator.position(x), self._held)
+        data = self._evaluator.position(x)
+        own, rest = parts.divided(self._held)
+        return rigid.directions(self._model, data, rest) | parts.directions(self._model, data, own)
+
+    def holds_straight(self) -> bool:
+        """Whether all modes that are held are those of parts: coordinates then change along them in proportion."""
+        return bool(self._held) and not parts.divided(self._held)[1]
 
     def holding(self, modes: Sequence[str]) -> Mechanism:
         """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""

@@ -142,8 +142,11 @@ def _named(free: np.ndarray) -> list[str]:
 def _unopposed(mechanism: Any, model: mujoco.MjModel, position: Any, x: np.ndarray, values: Any, name: str) -> bool:
     """Whether the forces do not change along a motion, but for turning with it."""
     z = directions(model, position(x), [name]).get(name)
-    if z is None:
-        return False
+    return z is not None and leaves_forces(mechanism, x, values, z)
+
+
+def leaves_forces(mechanism: Any, x: np.ndarray, values: Any, z: np.ndarray) -> bool:
+    """Whether forces do not change along a tangent vector z, (nv,), but for turning with it."""
     local = mechanism.linearize(x, values, ())
     turned = 2.0 * np.abs(local.f).max()
     return bool(np.abs(local.jac @ z).max() <= (_STIFF * (np.abs(local.jac).max() or 1.0) + turned) * np.abs(z).max())

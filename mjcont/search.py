@@ -371,8 +371,17 @@ class _Search:
         return len(self.points) - 1
 
     def _rigid_copy(self, point: Point) -> int:
-        """Return the place of an equilibrium with the same spectrum: with held modes, the same in another place."""
+        """Return the place of an equilibrium that is the same in another place along held modes, -1 if there is none.
+
+        Motions of parts change coordinates in proportion; with motions of the whole model the spectrum tells.
+        """
+        straight = self.problem.holds_straight()
         for i, other in enumerate(self.points):
-            if same_spectrum(point, other):
+            if same_spectrum(point, other) and (not straight or self._apart_by_modes_only(point.state, other.state)):
                 return i
         return -1
+
+    def _apart_by_modes_only(self, x: Array, y: Array) -> bool:
+        step = self.coordinates.steps(x[None], y[None])[0, 0] * self.problem.state_scale
+        rest = self.problem.admissible(y, step) / self.problem.state_scale
+        return bool(np.abs(rest).max() < _SAME)

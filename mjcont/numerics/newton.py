@@ -23,8 +23,8 @@ LARGEST_ERROR = 1e-7
 _LARGEST_STEP = 2.0
 # a step that was to be the last and is followed by one so many times longer did not lead to the curve
 _JUMPS = 10.0
-# chord steps that differ by less are the same one again; how often it is doubled, and how far a prediction may lift off
-_SAME_STEP, _DOUBLINGS, _LIFT = 0.1, 30, 5e-4
+# chord steps that differ by less are the same one again; how often it is lengthened, and how far points may be lifted
+_SAME_STEP, _TIMES, _LIFT = 0.1, 10, 5e-4
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,16 +195,16 @@ def _polished(
 def _crept(
     system: System, x: Array, y: Array, chord: Array, lu: Factored, row: Array, reach: float
 ) -> tuple[Array, Array, Local]:
-    """Return (x, y) moved by as many chord steps as leave the next one the same, doubled each time, up to `reach`.
+    """Return (x, y) moved by as many chord steps as leave the next one the same, four times as many each time.
 
     A prediction that lifts a stiff contact off by many times its yield is brought back by that yield in each step: a
-    contact that is open has no force, however far it is open.
+    contact that is open has no force, however far it is open. Points farther than `reach` away are of no use.
     """
-    for doublings in range(_DOUBLINGS):
-        x, y = system.move(x, y, 2.0**doublings * chord)
+    for k in range(_TIMES):
+        x, y = system.move(x, y, 4.0**k * chord)
         local = system.local(x, y)
         following = _newton_step(system, local, y, lu, row)[0]
-        if length(following - chord) > _SAME_STEP * length(chord) or 2.0**doublings * length(chord) > min(reach, _LIFT):
+        if length(following - chord) > _SAME_STEP * length(chord) or 4.0**k * length(chord) > min(reach, _LIFT):
             break
     return x, y, local
 
