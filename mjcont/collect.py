@@ -15,6 +15,7 @@ import numpy as np
 from mjcont.branch import Branch, Column, Point, SpecialPoint, show
 from mjcont.curverows import CROSSINGS, MARGINAL, CurveRows, curve_rows
 from mjcont.errors import StartError
+from mjcont.numerics import clock
 from mjcont.numerics.arclength import CurvePoint, first_point, turned_back
 from mjcont.numerics.events import Located
 from mjcont.numerics.problem import Array, Values
@@ -23,7 +24,7 @@ from mjcont.numerics.spectrum import Spectrum
 from mjcont.numerics.stability import local_spectrum
 from mjcont.numerics.steps import End, Status
 from mjcont.numerics.system import Local, System
-from mjcont.numerics.trace import Trace, Walker, trace
+from mjcont.numerics.trace import Trace, Walker, time_up, trace
 from mjcont.storage import special_from_row
 
 
@@ -87,14 +88,24 @@ def run_directions(
     traces: list[Trace] = []
     report = reporter(walker.system, progress)
     for direction in directions:
+        if traces and clock.expired():
+            traces.append(Trace([], [], time_up(walker.settings)))
+            continue
         if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
             break
         with np.errstate(all="ignore"):  # a state that overflows fails its step; that is reported as such
             first: CurvePoint | str
-            if walker.long is not None and traces and traces[0].points:
-                first = turned_back(walker.system, traces[0].points)
-            else:
-                first = first_point(walker.system, x, y, direction, walker.settings, lead)
+            try:
+                if walker.long is not None and traces and traces[0].points:
+                    first = turned_back(walker.system, traces[0].points)
+                elif not traces:
+                    with clock.unlimited():  # there is always a start to tell of
+                        first = first_point(walker.system, x, y, direction, walker.settings, lead)
+                else:
+                    first = first_point(walker.system, x, y, direction, walker.settings, lead)
+            except clock.TimeUp:
+                traces.append(Trace([], [], time_up(walker.settings)))
+                continue
             if isinstance(first, str):
                 traces.append(Trace([], [], End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
@@ -150,12 +161,15 @@ def completed(
 
     An interrupt meanwhile keeps the points, and ends the last of the curve's traces.
     """
-    if kind == "equilibria" and not any(t.end.status is Status.INTERRUPTED for t in traces):
+    if kind == "equilibria" and not any(t.end.status in (Status.INTERRUPTED, Status.MAX_TIME) for t in traces):
         try:
             return curve_rows(system, rows, settings.chord)
+        except clock.TimeUp:
+            traces[-1].end = time_up(settings)
         except KeyboardInterrupt:
             traces[-1].end = End(Status.INTERRUPTED, "stopped by the user before rows were laid between the points")
-    return curve_rows(system, rows, math.inf)
+    with clock.unlimited():
+        return curve_rows(system, rows, math.inf)
 
 
 def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
@@ -167,6 +181,7 @@ def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
     return [*rows, rows[0]] if closed else rows
 
 
+@clock.unlimited()
 def build_branch(
     kind: str,
     rows: CurveRows,

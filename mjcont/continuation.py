@@ -12,6 +12,7 @@ import numpy as np
 from mjcont.branch import Branch, Point, show
 from mjcont.collect import Progress, collect, make_point, run_directions, special_point
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError, unknown_name
+from mjcont.numerics import clock
 from mjcont.numerics.arclength import CurvePoint, first_point
 from mjcont.numerics.equilibria import square_system
 from mjcont.numerics.events import Located, ScalarZero
@@ -19,6 +20,7 @@ from mjcont.numerics.newton import Corrected, solve
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.starts import find_start
+from mjcont.numerics.steps import End
 from mjcont.numerics.system import Free, System
 from mjcont.numerics.trace import Walker
 from mjcont.quantities import column_of, meant_each
@@ -172,14 +174,15 @@ def continue_equilibria(
     NameLookupError, BoundsError, StartError, ParameterError
         See their messages. Failure of the continuation itself is no exception but the branch's status.
     """
-    prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
-    directions = check_direction(direction)
-    walker = prepared.walker
-    traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
-    branch = collect(
-        "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.neutral,
-        prepared.notes,
-    )
+    with clock.limited(make_settings(options).max_seconds):
+        prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
+        directions = check_direction(direction)
+        walker = prepared.walker
+        traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
+        branch = collect(
+            "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.neutral,
+            prepared.notes,
+        )
     return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
 
 
@@ -201,15 +204,23 @@ def iterate_equilibria(
     Arguments as for `continue_equilibria`, in one direction. Special points are `SpecialPoint`s without a label;
     the iterator ends where the curve does.
     """
-    prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, None, options)
-    (sign,) = check_direction(int(direction))
-    walker = prepared.walker
-    system = walker.system
+    within = clock.allowance(make_settings(options).max_seconds)
+    with within():
+        prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, None, options)
+        (sign,) = check_direction(int(direction))
+        walker = prepared.walker
+        system = walker.system
     first = first_point(system, prepared.x, system.start_y(), sign, walker.settings)
     if isinstance(first, str):
         raise StartError(f"the curve could not be entered: {first}")
     yield make_point(system.problem, first.x, system.values(first.y))
-    for item in walker.walk(first):
+    walk, item = walker.walk(first), None
+    while not isinstance(item, End):
+        try:
+            with within():  # not across a yield: the caller's own time has no limit
+                item = next(walk)
+        except clock.TimeUp:
+            return
         if isinstance(item, CurvePoint):
             yield make_point(system.problem, item.x, system.values(item.y))
         elif isinstance(item, Located):
@@ -258,7 +269,10 @@ def _prepare(
     refuse_pushing(problem, parameter, x, values)
     if notes:
         problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
-    found = find_start(problem, x, values)
+    try:
+        found = find_start(problem, x, values)
+    except clock.TimeUp:
+        raise StartError(f"no equilibrium found: the limit of {settings.max_seconds:g} s was reached") from None
     origin = _start_name(problem, start, keyframe, state)
     if found.failure:
         raise _no_start(problem, origin, found.failure)

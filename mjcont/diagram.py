@@ -17,6 +17,7 @@ from mjcont.continuation import (
     make_settings,
 )
 from mjcont.errors import BoundsError, MjcontError
+from mjcont.numerics import clock
 from mjcont.numerics.arclength import CurvePoint, point_from
 from mjcont.numerics.events import Located
 from mjcont.numerics.newton import correct, solve
@@ -24,7 +25,7 @@ from mjcont.numerics.problem import Array
 from mjcont.numerics.settings import Settings
 from mjcont.numerics.steps import End, Status
 from mjcont.numerics.system import Free, System
-from mjcont.numerics.trace import Trace, trace
+from mjcont.numerics.trace import Trace, time_up, trace
 from mjcont.walkers import equilibrium_walker
 
 _OFFSET = 1e-2
@@ -90,7 +91,8 @@ def switch_branches(
         raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
     settings = make_settings(options)
     system = _system_at(point, bounds)
-    found = [_through(point, system, t, settings, progress) for t in point.vectors.get("tangents", ())]
+    with clock.limited(settings.max_seconds):
+        found = [_through(point, system, t, settings, progress) for t in point.vectors.get("tangents", ())]
     return [b for b in found if b is not None]
 
 
@@ -129,7 +131,11 @@ def _through(
         if halves and halves[0].end.status in (Status.CLOSED, Status.INTERRUPTED):
             halves.append(Trace([], [], halves[0].end))
             break
-        first = _leave(system, x, y, sign * tangent, settings)
+        try:
+            first = _leave(system, x, y, sign * tangent, settings)
+        except clock.TimeUp:
+            halves.append(Trace([], [], time_up(settings)))
+            continue
         if isinstance(first, str):
             halves.append(Trace([], [], End(Status.NO_START, f"the branch could not be entered: {first}")))
             continue
@@ -137,7 +143,8 @@ def _through(
     if not any(h.points for h in halves):
         return None
     local = system.local(x, y)
-    bp_point = CurvePoint(x, y, tangent, 0.0, local, system.jacobian(local, y))
+    with clock.unlimited():
+        bp_point = CurvePoint(x, y, tangent, 0.0, local, system.jacobian(local, y))
     known = {k: v for k, v in {**point.coefficients, **point.vectors}.items() if k in ("type", "c", "tangents", "w")}
     located = Located("BP", bp_point, point.tolerance, point.converged, known)
     for half in halves:  # a curve that closes comes back to the point it left
@@ -193,7 +200,26 @@ def bifurcation_diagram(
     tries: list[tuple[Any, str | None]] = [(s, None) for s in first] if not keyframes or starts is not None else []
     tries += [(first[0], k) for k in keyframes]
     branches: list[Branch] = []
-    notes: list[str] = []
+    reached = ""
+    try:
+        with clock.limited(make_settings(options).max_seconds):
+            reached = _reach(problem, parameter, bounds, tries, branches, max_branches, progress, options)
+    except clock.TimeUp:
+        reached = f"the limit of {make_settings(options).max_seconds:g} s was reached"
+    return Diagram(tuple(branches), (reached,) if reached else ())
+
+
+def _reach(
+    problem: Any,
+    parameter: str,
+    bounds: tuple[float, float] | None,
+    tries: Sequence[tuple[Any, str | None]],
+    branches: list[Branch],
+    max_branches: int,
+    progress: Progress | None,
+    options: Mapping[str, Any],
+) -> str:
+    """Add every branch that is reached from the starts to `branches`; return which limit was met, or nothing."""
     for start, keyframe in tries:
         if any(b.interrupted for b in branches):
             break
@@ -209,11 +235,10 @@ def bifurcation_diagram(
         done.append(point)
         for branch in _new_branches(point, branches, bounds, progress, options):
             if len(branches) >= max_branches:
-                notes.append(f"the limit of {max_branches} branches was reached")
-                return Diagram(tuple(branches), tuple(notes))
+                return f"the limit of {max_branches} branches was reached"
             branches.append(branch)
             queue += branch.of_kind("BP")
-    return Diagram(tuple(branches), tuple(notes))
+    return ""
 
 
 def _new_branches(

@@ -17,6 +17,7 @@ from scipy.integrate import solve_ivp
 
 from mjcont.branch import Point
 from mjcont.collect import make_point
+from mjcont.numerics.clock import check
 from mjcont.numerics.creep import creep
 from mjcont.numerics.newton import solve
 from mjcont.numerics.problem import Array, Values
@@ -147,6 +148,7 @@ def escape(
     limit = _limit(problem, x)
     try:
         while motion.time < max_time:
+            check()
             states, speed = motion.advance()
             far = np.abs(motion.x[: problem.n] / problem.state_scale).max()
             if not far < limit:

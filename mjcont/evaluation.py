@@ -10,6 +10,7 @@ import numpy as np
 from mjcont.dampers import Dampers
 from mjcont.features import linear_in_velocity
 from mjcont.kinks import Kinks
+from mjcont.numerics.clock import check
 from mjcont.numerics.problem import Array
 from mjcont.rows import ConstrainedRows, Rows
 from mjcont.writer import FieldWriter
@@ -54,6 +55,7 @@ class Evaluator:
 
         `ctrl` (m, nu) gives smooth models rows with controls of their own.
         """
+        check()
         self.count += len(qpos)
         if self.writer.failure:  # no model there: a curve ends, as one does where a function leaves its domain
             return np.full((len(qpos), self.model.nv), np.nan)

@@ -14,6 +14,7 @@ from mjcont.collect import Progress, build_branch, completed, ends_of, ordered_r
 from mjcont.continuation import check_bounds, make_settings
 from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.loci import default_ends, locus_detectors
+from mjcont.numerics import clock
 from mjcont.numerics.arclength import CurvePoint, first_point
 from mjcont.numerics.equilibria import critical_square
 from mjcont.numerics.events import Located
@@ -60,10 +61,11 @@ def extend(
     settings = make_settings({**_own_options(branch), **options})
     free = _free(branch, bounds)
     result = branch
-    for end in ends:
-        segment = _segment(result, end, free, settings, progress)
-        if segment is not None:
-            result = _join(result, segment, end)
+    with clock.limited(settings.max_seconds):
+        for end in ends:
+            segment = _segment(result, end, free, settings, progress)
+            if segment is not None:
+                result = _join(result, segment, end)
     result = replace(result, free={p.name: (p.low, p.high) for p in free})
     points = _relabelled(result, [(p, p.index) for p in result.special_points])
     object.__setattr__(result, "special_points", tuple(points))

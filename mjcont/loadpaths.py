@@ -20,6 +20,7 @@ from mjcont.energy import potential_energy, without_potential
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.escape import Landing, escape
 from mjcont.legs import FRACTION, Leg, unwrapped
+from mjcont.numerics import clock
 from mjcont.numerics.arclength import CurvePoint
 from mjcont.numerics.problem import Array, Values
 from mjcont.numerics.settings import Settings
@@ -98,7 +99,11 @@ def load_path(
     if first.n_unstable:
         raise StartError(f"the path begins at an unstable equilibrium, at which nothing rests: {first}")
     follower = _Follower(held, settings, landing == "motion", max_time, max_jumps, [], [])
-    status, message = follower.run(first, vertices)
+    try:
+        with clock.limited(settings.max_seconds):
+            status, message = follower.run(first, vertices)
+    except clock.TimeUp:
+        status, message = "max time", f"the limit of {settings.max_seconds:g} s was reached"
     return LoadPath(
         problem.name, vertices, tuple(follower.segments), tuple(follower.jumps), status, message,
         problem.evaluations - before + follower.stepped, problem,

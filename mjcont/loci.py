@@ -10,6 +10,7 @@ from mjcont.branch import KIND_NAMES, Branch, SpecialPoint, show
 from mjcont.collect import Progress, collect, run_directions
 from mjcont.continuation import check_bounds, check_direction, hold_rigid_modes, make_settings
 from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
+from mjcont.numerics import clock
 from mjcont.numerics.equilibria import zero_detector
 from mjcont.numerics.events import Detector
 from mjcont.numerics.loci import conditions_of, fold_locus_detectors, hopf_locus_detectors, unfolding_stop
@@ -92,7 +93,8 @@ def continue_special(
     walker = Walker(system, settings, detectors, stop, ends)
     directions = check_direction(direction)
     lead = len(free) - 1
-    traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
+    with clock.limited(settings.max_seconds):
+        traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
     where = ", ".join(f"{p.name} = {show(system.base[p.name], p.unit)}" for p in free)
     locus = collect(f"{kind} locus", system, traces, directions, f"from {point.label} at {where}", settings)
     return replace(locus, settings={**locus.settings, "zeros": dict(zeros)}) if zeros else locus

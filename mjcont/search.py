@@ -7,7 +7,6 @@ known so far, from beside them, and with runs from mixtures of them, until nothi
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -21,6 +20,7 @@ from mjcont.continuation import hold_rigid_modes
 from mjcont.energy import potential_energy
 from mjcont.errors import BoundsError, ParameterError, unknown_name
 from mjcont.found import Account, Equilibria, gather, same_spectrum
+from mjcont.numerics import clock
 from mjcont.numerics.coordinates import Coordinates, layout, with_turns
 from mjcont.numerics.deflation import Deflation, newton
 from mjcont.numerics.multistart import Many, Runs, levenberg_marquardt, spectral_step
@@ -99,11 +99,9 @@ def find_equilibria(
             raise ParameterError(f"{name} must be at least 1, got {number}")
     search = _prepare(problem, _parameter_values(problem, params), region)
     most = 25 * starts if max_starts is None else max_starts
-    limits = _Limits(
-        max_solutions, most, max_evaluations, max_seconds, search.problem.evaluations, time.monotonic()
-    )
+    limits = _Limits(max_solutions, most, max_evaluations, max_seconds, search.problem.evaluations)
     first = [problem.start_state(), *problem.keyframes.values()] if keyframes else []
-    with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"), clock.limited(max_seconds):
         ended = search.run(first, starts, seed, limits, progress)
     energies = potential_energy(problem, np.array(search.kept), search.values)
     shown = tuple(name for name in search.ranges if name in problem.observables)
@@ -165,7 +163,6 @@ class _Limits:
     evaluations: int | None
     seconds: float
     evaluations_before: int
-    began: float
 
     def reached(self, search: _Search) -> str:
         """Return a sentence if a limit is reached, else an empty string."""
@@ -175,8 +172,6 @@ class _Limits:
             return f"the limit of {self.solutions} equilibria was reached: there may be more"
         if self.evaluations is not None and search.problem.evaluations - self.evaluations_before >= self.evaluations:
             return f"the limit of {self.evaluations} evaluations was reached"
-        if time.monotonic() - self.began >= self.seconds:
-            return f"the limit of {self.seconds:g} s was reached"
         return ""
 
 
@@ -241,6 +236,8 @@ class _Search:
                 if barren and self._enough(rounds, barren):
                     return limits.reached(self)
             return ended
+        except clock.TimeUp:
+            return f"the limit of {limits.seconds:g} s was reached"
         except KeyboardInterrupt:
             return "interrupted: this is what had been found"
 

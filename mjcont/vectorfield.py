@@ -9,6 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.errors import ParameterError, leaves_domain, unknown_name
+from mjcont.numerics.clock import check
 from mjcont.numerics.differences import (
     FOURTH_ORDER,
     PARAMETER,
@@ -108,6 +109,7 @@ class VectorField:
 
     def residual(self, x: Array, values: Values) -> Array:
         """Return f, (n,); NaN where the function overflows or leaves its domain."""
+        check()
         self.evaluations += 1
         try:
             return np.array(self.function(x, values), dtype=float).reshape(self.n)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from mjcont.numerics.clock import unlimited
 from mjcont.numerics.newton import _solve as solve_linear
 from mjcont.numerics.newton import solve
 from mjcont.numerics.problem import Array, Problem, Values
@@ -40,7 +41,8 @@ class Start:
 def find_start(problem: Problem, x0: Array, values: Values) -> Start:
     """Return the equilibrium that `x0` belongs to: by Newton's method if it is near, else as the module says."""
     system = System(problem, values, ())
-    near = solve(system, x0, _NO_Y, most=8, reach=0.1)
+    with unlimited():  # a start that is near is found whatever the limit on time
+        near = solve(system, x0, _NO_Y, most=8, reach=0.1)
     if not near.failure:
         distance = float(np.linalg.norm(system.difference(near.x, _NO_Y, x0, _NO_Y)))
         if distance < 0.1:

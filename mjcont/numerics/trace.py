@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -12,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.numerics import clock
 from mjcont.numerics.arclength import CurvePoint, advance, by_contraction, land, land_beside, may_turn_twice, next_step
 from mjcont.numerics.corner import NEAR, break_off, cross
 from mjcont.numerics.events import Detector, Located, Retry
@@ -71,7 +71,7 @@ class Walker:
 
     def walk(self, start: CurvePoint) -> Iterator[CurvePoint | Located | End]:
         """Yield the curve's points after `start`, special points before the point that follows them, and the end."""
-        settings, began = self.settings, time.monotonic()
+        settings = self.settings
         point, h, count = start, settings.ds, 1
         steps, self._leaps = deque[Step | End](), []
         if start.past:
@@ -87,7 +87,7 @@ class Walker:
             if self._size(point) > largest:
                 yield End(Status.RUNS_OFF, f"a state coordinate exceeds {largest:g} times its scale (max_size)")
                 return
-            limit = self._limit(point, count, began)
+            limit = self._limit(point, count)
             if not (limit or steps):
                 steps.extend(self._steps(point, h))
             step = limit or steps.popleft()
@@ -113,7 +113,7 @@ class Walker:
                 if not ended or item.s - point.s > _SAME_POINT:
                     yield item
                 point, count = item, count + 1
-                limit = None if item is step.items[-1] else self._limit(point, count, began)
+                limit = None if item is step.items[-1] else self._limit(point, count)
                 if limit is not None:
                     yield limit
                     return
@@ -134,14 +134,14 @@ class Walker:
         p, q = special.point, last[special.kind].point
         return float(np.linalg.norm(self.system.difference(p.x, p.y, q.x, q.y))) < _SAME_LOCATED
 
-    def _limit(self, point: CurvePoint, count: int, began: float) -> End | None:
+    def _limit(self, point: CurvePoint, count: int) -> End | None:
         settings = self.settings
         if count >= settings.max_points:
             return End(Status.MAX_POINTS, f"the limit of {settings.max_points} points was reached")
         if point.s >= settings.max_arclength:
             return End(Status.MAX_ARCLENGTH, f"the limit of {settings.max_arclength:g} in arclength was reached")
-        if time.monotonic() - began > settings.max_seconds:
-            return End(Status.MAX_TIME, f"the limit of {settings.max_seconds:g} s was reached")
+        if clock.expired():
+            return time_up(settings)
         message = self.stop(point) if self.stop is not None else None
         if not message:
             return None
@@ -354,6 +354,11 @@ def _distinct(located: list[Located]) -> list[Located]:
     ]
 
 
+def time_up(settings: Settings) -> End:
+    """Return the end of a curve that takes too long."""
+    return End(Status.MAX_TIME, f"the limit of {settings.max_seconds:g} s was reached")
+
+
 def trace(walker: Walker, start: CurvePoint, progress: Callable[[CurvePoint | Located | End], None] | None) -> Trace:
     """Collect a walk; an interrupt (Ctrl-C) ends it and keeps what there is."""
     result = Trace([start])
@@ -367,6 +372,8 @@ def trace(walker: Walker, start: CurvePoint, progress: Callable[[CurvePoint | Lo
                 result.points.append(item)
             if progress is not None:
                 progress(item)
+    except clock.TimeUp:
+        result.end = time_up(walker.settings)
     except KeyboardInterrupt:
         result.end = End(Status.INTERRUPTED, f"stopped by the user after {len(result.points)} points")
     return result
