@@ -20,6 +20,7 @@ from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.mechanism.energy import potential_energy, without_potential
 from mjcont.motion.escape import Landing, escape
 from mjcont.motion.legs import FRACTION, Leg, unwrapped
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.algebra import eigenvectors, singular, solve
 from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.free import Free
@@ -98,7 +99,11 @@ def load_path(
     if first.n_unstable:
         raise StartError(f"the path begins at an unstable equilibrium, at which nothing rests: {first}")
     follower = _Follower(held, settings, landing == "motion", max_time, max_jumps, [], [])
-    status, message = follower.run(first, vertices)
+    try:
+        with clock.limited(settings.max_seconds):
+            status, message = follower.run(first, vertices)
+    except clock.TimeUp:
+        status, message = "max time", f"the limit of {settings.max_seconds:g} s was reached"
     return LoadPath(
         problem.name, vertices, tuple(follower.segments), tuple(follower.jumps), status, message,
         problem.evaluations - before + follower.stepped, problem,
@@ -299,7 +304,7 @@ def _cut(branch: Branch, forward: int, target: float, name: str) -> tuple[Branch
     special = {p.index: p for p in branch.special_points}
     if status == "at special point":
         last = len(order) - 1
-    elif status in ("stopped", "at bound"):
+    elif status in ("stopped", "at bound", "breaks off"):
         corners = [k for k, i in enumerate(order) if i in special and special[int(i)].kind in ("CO", "BP")]
         calm = [k for k, i in enumerate(order) if branch.n_unstable[i] == 0]
         last = corners[-1] if corners and corners[-1] >= len(order) - 2 else max(calm[-1] if calm else 0, 0)
@@ -310,7 +315,7 @@ def _cut(branch: Branch, forward: int, target: float, name: str) -> tuple[Branch
     travel = branch.model.difference(branch.states[at], branch.states[before])
     point: Point = special.get(at, branch.row(at))
     kind = point.kind if isinstance(point, SpecialPoint) else "lost"
-    if kind == "CO":
+    if kind == "CO" and last + 1 < len(order):
         along = branch.model.difference(branch.states[int(order[last + 1])], branch.states[at])
     else:
         along = _critical(branch.model, point, kind, travel)
