@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mjcont.curves.collect import Progress, collect, make_point, run_directions, special_point
-from mjcont.curves.walkers import equilibrium_walker, monitor_of, point_stop
+from mjcont.curves.walkers import Zeros, equilibrium_walker, monitor_of, point_stop, zero_values
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
@@ -28,7 +28,7 @@ from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint, show
-from mjcont.results.quantities import column_of, finite, meant_each
+from mjcont.results.quantities import column_of, meant_each
 
 M = TypeVar("M", bound=Model)
 
@@ -115,7 +115,7 @@ def continue_equilibria(
     keyframe: str | None = None,
     state: Any = None,
     direction: int | None = None,
-    zeros: Mapping[str, float] | None = None,
+    zeros: Zeros | None = None,
     limits: Mapping[str, tuple[float, float]] | None = None,
     stop: Callable[[Point], str | None] | None = None,
     progress: Progress | None = None,
@@ -136,8 +136,8 @@ def continue_equilibria(
         Where to look for the first equilibrium; default the start point's state, or qpos0 (u0).
     direction : {None, +1, -1}
         Both directions from the start, or only that in which the parameter first grows or falls.
-    zeros : dict of column to value, optional
-        Observables whose passing of a value is located and labelled UZ.
+    zeros : dict of column to value, or to several values, optional
+        Columns whose passing of a value is located and labelled UZ.
     limits : mapping of column to (low, high), optional
         The curve ends at the first point at which an observable leaves its range.
     stop : callable, optional
@@ -176,7 +176,7 @@ def iterate_equilibria(
     keyframe: str | None = None,
     state: Any = None,
     direction: int = 1,
-    zeros: Mapping[str, float] | None = None,
+    zeros: Zeros | None = None,
     limits: Mapping[str, tuple[float, float]] | None = None,
     **options: Any,
 ) -> Iterator[Point]:
@@ -229,7 +229,7 @@ def _prepare(
     start: Mapping[str, float] | Point | None,
     keyframe: str | None,
     state: Any,
-    zeros: Mapping[str, float] | None,
+    zeros: Zeros | None,
     limits: Mapping[str, tuple[float, float]] | None,
     stop: Callable[[Point], str | None] | None,
     options: Mapping[str, Any],
@@ -248,8 +248,7 @@ def _prepare(
     for name in (*zeros, *limits):
         if name not in problem.parameters:
             problem.observable(name)
-    for name, value in zeros.items():
-        finite(f"zeros: the value of {name}", value)
+    zero_values(zeros)
     for name, ends in limits.items():
         check_limits(name, ends)
     problem, notes = hold_rigid_modes(problem, x, values)
