@@ -110,10 +110,7 @@ def bushed_xml(
     if not (math.isfinite(stiffness) and stiffness > 0 and (damping is None or 0 <= damping < math.inf)):
         raise ParameterError("the bushes' stiffness must be a positive number, their damping not negative")
     text, folder = _source(model)
-    spec, notes = loading.parse_present(text, folder, "to be given bushes")
-    compiled = loading.compile_spec(spec)
-    for note in notes:
-        warnings.warn(note, ModelWarning, stacklevel=2)
+    spec, compiled, _ = _present(text, folder, "to be given bushes")
     pins = [_joint(compiled, name) for name in joints or ()]
     closures = _chosen(compiled, connects)
     if not pins and not closures:
@@ -157,11 +154,7 @@ def set_constraint_stiffness(
     """
     if not (math.isfinite(stiffness) and stiffness > 0 and 0 <= damping_ratio < math.inf):
         raise ParameterError("a constraint's stiffness must be a positive number, its damping ratio not negative")
-    text, folder = _source(model)
-    spec, notes = loading.parse_present(text, folder, "to be given stiffness")
-    compiled = loading.compile_spec(spec)
-    for note in notes:
-        warnings.warn(note, ModelWarning, stacklevel=2)
+    spec, compiled, notes = _present(*_source(model), "to be given stiffness")
     names = {equality_name(compiled, e): e for e in range(compiled.neq)}
     if equalities is None:
         equalities = [c.name for c in constraint_closures(compiled)]
@@ -189,6 +182,17 @@ def _source(model: str | Path | mujoco.MjSpec) -> tuple[str, Path | None]:
     folder, spec = Path(model.modelfiledir) if model.modelfiledir else None, model.copy()
     assets.drop_missing(spec, (folder or Path()).resolve())
     return exact_text(spec), folder
+
+
+def _present(
+    text: str, folder: Path | None, label: str
+) -> tuple[mujoco.MjSpec, mujoco.MjModel, tuple[str, ...]]:
+    """Return the spec of a text without what needs missing files, compiled, and what is missing, of which it warns."""
+    spec, notes = loading.parse_present(text, folder, label)
+    compiled = loading.compile_spec(spec)
+    for note in notes:
+        warnings.warn(note, ModelWarning, stacklevel=3)
+    return spec, compiled, notes
 
 
 def _noted(spec: mujoco.MjSpec, notes: Sequence[str]) -> mujoco.MjSpec:

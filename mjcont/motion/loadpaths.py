@@ -99,11 +99,7 @@ def load_path(
     if first.n_unstable:
         raise StartError(f"the path begins at an unstable equilibrium, at which nothing rests: {first}")
     follower = _Follower(held, settings, landing == "motion", max_time, max_jumps, [], [])
-    try:
-        with clock.limited(settings.max_seconds):
-            status, message = follower.run(first, vertices)
-    except clock.TimeUp:
-        status, message = "max time", f"the limit of {settings.max_seconds:g} s was reached"
+    status, message = follower.run(first, vertices)
     return LoadPath(
         problem.name, vertices, tuple(follower.segments), tuple(follower.jumps), status, message,
         problem.evaluations - before + follower.stepped, problem,
@@ -201,7 +197,14 @@ class _Follower:
     stepped: int = 0
 
     def run(self, first: Point, vertices: Sequence[Values]) -> tuple[str, str]:
-        """Follow all legs; return status and sentence."""
+        """Follow all legs, as far as the time allows; return status and sentence."""
+        try:
+            with clock.limited(self.settings.max_seconds):
+                return self._legs(first, vertices)
+        except clock.TimeUp:
+            return "max time", f"the limit of {self.settings.max_seconds:g} s was reached"
+
+    def _legs(self, first: Point, vertices: Sequence[Values]) -> tuple[str, str]:
         at, rows = first, 0
         for leg, target in enumerate(vertices[1:]):
             while any(target[n] != at.parameters[n] for n in target):

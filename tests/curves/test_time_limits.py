@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import mjcont as mc
-from mjcont.numerics import clock
+from mjcont.numerics.equations import clock
 
 LIMIT = 400.0
 

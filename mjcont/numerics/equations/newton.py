@@ -135,15 +135,14 @@ def correct(
     failure: Refused | None = Refused(Why.UNSETTLED, "the corrector did not converge")
     tol = settings.tol
     local, iterations = local or system.local(x, y), 0
-    steps: list[Array] = []
-    chord: Array | None = None
-    creeps = False
+    steps, chord, creeps = list[Array](), None, False
     while iterations < settings.max_corrections:
         iterations += 1
         if lu is None:
             lu, steps, chord = Factored(matrix_with_row(system, local, y, row)), [], None
         before, chord = chord, _newton_step(system, local, y, lu, row)[0]
-        if before is not None and length(chord - before) <= _SAME_STEP * length(before):
+        same = before is not None and length(chord - before) <= _SAME_STEP * length(before)
+        if same and system.problem.nonsmooth:
             if creeps:
                 failure = _STANDS_STILL
                 break
