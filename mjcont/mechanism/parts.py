@@ -1,7 +1,8 @@
 """Free motions of parts: a wheel on its axle, a rod between two balls, a block on a rail, that no force opposes.
 
 They are found and held as those of the whole model are (`rigid`). A part is a body, or a body with all that it carries;
-its motions are twists in its own frame, since an axle moves with what bears it.
+its motions are twists in its own frame, since an axle moves with what bears it. What hangs from a ball joint, or
+floats, may also turn about an axis of the ground, such as the vertical, wherever its bearer goes.
 """
 
 from __future__ import annotations
@@ -20,8 +21,11 @@ from mjcont.mechanism.core import Core
 from mjcont.numerics.equations.algebra import least_squares, singular
 from mjcont.numerics.equations.problem import Array, Values
 
-_MODE = re.compile(r"(rotation|translation) of (.*) (?:about|along) \(([^()]*)\)(?: through \(([^()]*)\))?")
-_CARRIES = " and what it carries"
+_MODE = re.compile(
+    r"(rotation|translation) of (.*) (?:about|along) (the ground's )?\(([^()]*)\)(?: through \(([^()]*)\))?"
+)
+_CARRIES, _GROUND = " and what it carries", "the ground's "
+_ROUND = (mujoco.mjtJoint.mjJNT_BALL, mujoco.mjtJoint.mjJNT_FREE)
 _RIGID, _SAME = 1e-9, 1e-6
 _STATES = 12
 
@@ -35,12 +39,14 @@ class _Part:
     name : of its first body, with `_CARRIES` where it is more than that.
     root : its first body.
     inside : (nbody,) whether a body belongs to it.
+    joint : the ball or free joint of its first body, if its twists are about that in the axes of the ground; else -1.
     barred, work : for each state, velocities that the joints do not allow (6 m, 6), and power of the forces (6,).
     """
 
     name: str
     root: int
     inside: Array
+    joint: int = -1
     barred: list[Array] = field(default_factory=list)
     work: list[Array] = field(default_factory=list)
 
@@ -77,7 +83,7 @@ def zero_modes(
         opposed = part.opposed(largest)
         if among is None:
             _, sizes, vh = singular(opposed)
-            names = _named(part.name, vh[sizes <= _RIGID])
+            names = _named(part, vh[sizes <= _RIGID])
         else:
             names = [n for n in among if _of(part, n) and np.linalg.norm(opposed @ _twist(n)) <= _SAME]
         for name in names:
@@ -92,9 +98,9 @@ def directions(model: mujoco.MjModel, data: mujoco.MjData, names: Iterable[str])
     if not (wanted := list(names)):
         return {}
     jac, found = rigid._bodies(model, data)[0], {}
-    parts = {p.name: p for p in _parts(model)}
+    parts = _parts(model)
     for name in wanted:
-        part = parts[_MODE.fullmatch(name)[2]]  # type: ignore[index]
+        part = next(p for p in parts if _of(p, name))
         moved = _moved(model, data, part) @ _twist(name)
         z = least_squares(jac, moved)
         z[np.abs(z) < 1e-12 * np.abs(z).max(initial=0.0)] = 0.0
@@ -112,7 +118,7 @@ def divided(names: Iterable[str]) -> tuple[list[str], list[str]]:
 def _parts(model: mujoco.MjModel) -> list[_Part]:
     """Return every body that a joint moves, alone and with what it carries, but not all that moves at once."""
     moving = _moving(model)
-    found = []
+    found, hung = list[_Part](), list[_Part]()
     for body in np.flatnonzero(model.body_dofnum > 0).tolist():
         alone = np.zeros(model.nbody, dtype=bool)
         alone[body] = True
@@ -125,7 +131,10 @@ def _parts(model: mujoco.MjModel) -> list[_Part]:
         for inside, label in ((alone, name), (carried, name + _CARRIES)):
             if not np.array_equal(inside & moving, moving) and not (label != name and np.array_equal(alone, carried)):
                 found.append(_Part(label, body, inside))
-    return found
+                joint = int(model.body_jntadr[body])
+                if mujoco.mjtJoint(model.jnt_type[joint]) in _ROUND:
+                    hung.append(_Part(label, body, inside, joint))
+    return [*found, *hung]
 
 
 def _moving(model: mujoco.MjModel) -> Array:
@@ -143,9 +152,11 @@ def _body_name(model: mujoco.MjModel, body: int) -> str:
 
 
 def _moved(model: mujoco.MjModel, data: mujoco.MjData, part: _Part) -> Array:
-    """Return the velocities of all bodies that can move, per twist of a part in its own frame, (6 m, 6)."""
+    """Return the velocities of all bodies that can move, per twist of a part in its frame, (6 m, 6)."""
     moving = np.flatnonzero(_moving(model))
-    turn, origin = data.xmat[part.root].reshape(3, 3), data.xpos[part.root]
+    own = part.joint < 0
+    turn = data.xmat[part.root].reshape(3, 3) if own else np.eye(3)
+    origin = data.xpos[part.root] if own else data.xanchor[part.joint]
     moved = np.zeros((len(moving), 6, 6))
     for k, body in enumerate(moving):
         if part.inside[body]:
@@ -173,28 +184,29 @@ def _look(
 def _of(part: _Part, name: str) -> bool:
     """Whether a mode is one of a part."""
     match = _MODE.fullmatch(name)
-    return match is not None and match[2] == part.name
+    return match is not None and match[2] == part.name and bool(match[3]) == (part.joint >= 0)
 
 
 def _twist(name: str) -> Array:
-    """Return the velocity of a part's origin and its angular velocity, (6,), in its own frame, of a named motion."""
+    """Return the velocity of a part's origin and its angular velocity, (6,), in its frame, of a named motion."""
     match = _MODE.fullmatch(name)
     assert match is not None
-    axis = np.array([float(c) for c in match[3].split(",")])
+    axis = np.array([float(c) for c in match[4].split(",")])
     if match[1] == "translation":
         return np.concatenate([axis, np.zeros(3)])
-    point = np.array([float(c) for c in match[4].split(",")]) if match[4] else np.zeros(3)
+    point = np.array([float(c) for c in match[5].split(",")]) if match[5] else np.zeros(3)
     return np.concatenate([np.cross(point, axis), axis])
 
 
-def _named(part: str, free: Array) -> list[str]:
+def _named(part: _Part, free: Array) -> list[str]:
     """Return names of motions that span the twists `free` (k, 6), orthonormal rows; screws have none."""
     if not len(free):
         return []
+    name, ground = part.name, _GROUND if part.joint >= 0 else ""
     u, sizes, vh = singular(free[:, 3:])
     rank = int(np.count_nonzero(sizes > _SAME))
     sliding = u[:, rank:].T @ free[:, :3]  # combinations that do not turn
-    found = [f"translation of {part} along ({_shown(axis)})" for axis in _tidy(sliding)]
+    found = [f"translation of {name} along {ground}({_shown(axis)})" for axis in _tidy(sliding)]
     for axis in _tidy(vh[:rank]):
         weights = least_squares(free[:, 3:].T, axis)
         velocity = weights @ free[:, :3]
@@ -203,7 +215,7 @@ def _named(part: str, free: Array) -> list[str]:
             continue
         point = np.cross(axis, velocity)
         through = f" through ({_shown(point)})" if np.linalg.norm(point) > _RIGID else ""
-        found.append(f"rotation of {part} about ({_shown(axis)}){through}")
+        found.append(f"rotation of {name} about {ground}({_shown(axis)}){through}")
     return found
 
 
@@ -257,8 +269,8 @@ class Held:
         return rigid.directions(self._core.model, data, rest) | directions(self._core.model, data, own)
 
     def holds_straight(self) -> bool:
-        """Whether all modes that are held are those of parts: coordinates then change along them in proportion."""
-        return bool(self._held) and not divided(self._held)[1]
+        """Whether all modes that are held are those of parts in their own frames: coordinates change in proportion."""
+        return bool(self._held) and not any(_GROUND in name for name in self._held) and not divided(self._held)[1]
 
     def holding(self, modes: Sequence[str]) -> Self:
         """Return this mechanism with modes held by a stiffness and damping of their own."""

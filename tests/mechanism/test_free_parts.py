@@ -118,3 +118,15 @@ def test_equilibria_of_the_lever_are_told_apart_and_places_of_the_wheel_are_not(
 def test_the_name_of_a_body_without_one_is_its_joints():
     mechanism = model(LEVER.format("") + WHEEL.format("1 0 0", "").replace('body name="wheel"', "body"))
     assert held(mechanism) == ("rotation of wheel about (0, 1, 0)",)
+
+
+def test_a_pendulum_on_a_ball_joint_turns_about_the_vertical_wherever_the_lever_carries_it():
+    hanging = f"""<body name="bob" pos=".3 0 0"><joint name="ball" type="ball" damping=".1"/>
+      <geom type="capsule" size=".02" fromto="0 0 0 .1 0 -.3" mass="1" {APART}/></body>"""
+    branch = mc.continue_equilibria(model(LEVER.format(hanging)), "T", state=[0.6, 1.0, 0.0, 0.3, 0.0])
+    assert "rotation of bob about the ground's (0, 0, 1)" in branch.notes[0]
+    # 2 q = T + g r cos q with the bob's mass at the lever's end, by hand
+    q = branch["lever"]
+    np.testing.assert_allclose(2.0 * q, branch["T"] + 9.81 * (0.15 + 0.3) * np.cos(q), atol=1e-9)
+    assert set(branch.stability) == {"stable"}
+    assert [word for word, _ in branch.ends] == ["at bound", "at bound"]

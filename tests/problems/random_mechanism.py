@@ -28,13 +28,15 @@ def mechanism(seed: int) -> str:
     """Return two to four rods on springs and dampers under a load of the kind of the seed."""
     rng, kind = np.random.default_rng(seed), kind_of(seed)
     count = int(rng.integers(3, 5)) if kind == "loop" else int(rng.integers(2, 5))
-    parents = [i - 1 if kind != "tree" or i < 2 or rng.random() < 0.6 else int(rng.integers(0, i)) for i in range(count)]
+    parents = [i - 1 if kind != "tree" or i < 2 or rng.random() < 0.6 else int(rng.integers(i)) for i in range(count)]
     planar = kind in ("loop", "contact", "follower") or rng.random() < 0.4
     rods = [_rod(rng, planar) for _ in range(count)]
     tip = sum(rods, np.zeros(3))
     joints = [_joint(rng, kind, planar, i) for i in range(count)]
     body = _bodies(0, parents, rods, joints, rng.uniform(0.1, 1.0, count), kind)
-    return f"""<mujoco model="{kind}_{seed}"><compiler angle="radian"/><option gravity="0 0 -9.81"/>
+    upright = kind != "contact" and rng.random() < 0.5  # what stands on its springs buckles
+    return f"""<mujoco model="{kind}_{seed}"><compiler angle="radian"/>
+      <option gravity="0 0 {9.81 if upright else -9.81}"/>
       <default><geom contype="0" conaffinity="0"/></default>
       <worldbody>{body}{_floor(rng, tip) if kind == "contact" else ""}</worldbody>
       {_closure(rng, count, rods[-1]) if kind == "loop" else ""}
@@ -51,7 +53,7 @@ def _rod(rng, planar: bool) -> np.ndarray:
 
 
 def _joint(rng, kind: str, planar: bool, index: int) -> str:
-    spring = f'stiffness="{rng.uniform(1.0, 15.0):.17g}" damping="{rng.uniform(0.05, 0.6):.17g}"'
+    spring = f'stiffness="{rng.uniform(0.5, 6.0):.17g}" damping="{10.0 ** rng.uniform(-2, 0):.17g}"'
     if kind == "ball" and index:
         bare = rng.random() < 0.2  # such a rod may spin about itself: a motion that is held
         return f'<joint name="q{index}" type="ball" {"" if bare else spring}/>'
