@@ -9,6 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.errors import FunctionError, MjcontError, ParameterError, leaves_domain, unknown_name
+from mjcont.numerics.equations.clock import check
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
     PARAMETER,
@@ -18,7 +19,16 @@ from mjcont.numerics.equations.differences import (
 )
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.model import Model
-from mjcont.results.quantities import Observable, Parameter, default_bounds, finite, finite_array, finite_pair
+from mjcont.results.quantities import (
+    Observable,
+    Parameter,
+    default_bounds,
+    finite,
+    finite_array,
+    finite_pair,
+    own_observable,
+    told_apart,
+)
 
 
 class VectorField(Model):
@@ -94,9 +104,11 @@ class VectorField(Model):
         if len(labels) != self.n:
             raise ParameterError(f"names: expected {self.n} names for the components of u, got {len(labels)}")
         self.state_labels = [(label, units.get(label, "")) for label in labels]
-        self.observables = {
-            label: Observable(label, unit, _component(i)) for i, (label, unit) in enumerate(self.state_labels)
+        components = {
+            label: Observable(label, unit, _component(i), of="state")
+            for i, (label, unit) in enumerate(self.state_labels)
         }
+        self.observables = told_apart(components, self.parameters)
         self.keyframes: dict[str, Array] = {}
 
     def values(self, given: Values | None = None) -> dict[str, float]:
@@ -116,6 +128,7 @@ class VectorField(Model):
 
     def residual(self, x: Array, values: Values) -> Array:
         """Return f, (n,); NaN where the function overflows or leaves its domain."""
+        check()
         self.evaluations += 1
         try:
             found = np.array(self.function(x, values), dtype=float)
@@ -190,7 +203,7 @@ class VectorField(Model):
 
     def observe(self, name: str, function: Callable[[Array, Values], float], unit: str = "") -> None:
         """Add an observable computed by `function(u, p)`."""
-        self.observables[name] = Observable(name, unit, lambda values, x: function(x, values))
+        self.observables[name] = own_observable(name, unit, lambda values, x: function(x, values), self.parameters)
 
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables for states (m, n), shape (m, number of names)."""

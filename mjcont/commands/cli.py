@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from mjcont.commands import animate
 from mjcont.commands.arguments import parser
-from mjcont.errors import MjcontError, ResultFileError
+from mjcont.errors import MjcontError, ModelError, ResultFileError
 from mjcont.results.quantities import FRICTION
 
 if TYPE_CHECKING:
@@ -180,7 +180,6 @@ def _report(args: argparse.Namespace) -> int:
 
 def _bush(args: argparse.Namespace) -> int:
     from mjcont.models.bushes import bushed_xml
-    from mjcont.models.loading import compile_spec, parse
 
     out = Path(args.out)
     if out.exists() and Path(args.model).exists() and out.samefile(args.model):
@@ -189,11 +188,21 @@ def _bush(args: argparse.Namespace) -> int:
         text = bushed_xml(
             args.model, args.joint, args.connect, stiffness=args.stiffness, damping=args.damping, frame=args.frame
         )
-    compile_spec(parse(text, out.resolve().parent, f"'{out}' (files beside the model must be beside it, too)"))
+    _check_written(Path(args.model), text, out)
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(text, encoding="utf-8")
     say(f"written: {out}")
     return OK
+
+
+def _check_written(model: Path, text: str, out: Path) -> None:
+    """Raise a ModelError unless a text compiles where it is to be written, with all the files that its model has."""
+    from mjcont.models.loading import compile_spec, parse_present
+
+    spec, missing = parse_present(text, out.resolve().parent, f"'{out}'")
+    compile_spec(spec)
+    if model.is_file() and missing != parse_present(text, model.resolve().parent, f"'{model}'")[1]:
+        raise ModelError(f"'{out}': {missing[0]}: files beside the model must be beside it, too")
 
 
 def _export(args: argparse.Namespace) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy as np
 
 from mjcont.curves.rows import CurveRows, curve_rows
 from mjcont.errors import StartError
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
@@ -21,7 +23,7 @@ from mjcont.numerics.points.kinds import KINDS, holds_eigenvalues
 from mjcont.numerics.spectra.stability import local_spectrum, verdict_at
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.steps import End, Item, Status
-from mjcont.numerics.walk.trace import Trace, Walker, trace
+from mjcont.numerics.walk.trace import Trace, Walker, time_up, trace
 from mjcont.results.branch import Branch
 from mjcont.results.model import Model, model_of, units
 from mjcont.results.points import Column, Mark, Point, show
@@ -84,12 +86,20 @@ def run_directions(
     traces: list[Trace] = []
     report = reporter(walker.system, progress)
     for direction in directions:
+        if traces and clock.expired():
+            traces.append(Trace([], end=time_up(walker.settings)))
+            continue
         if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
             break
         with np.errstate(all="ignore"):  # a state that overflows fails its step; that is reported as such
-            first: CurvePoint | Refused | None = walker.stepper.other_way(traces[0].points) if traces else None
-            if first is None:
-                first = first_point(walker.system, x, y, direction, walker.settings, lead)
+            try:
+                first: CurvePoint | Refused | None = walker.stepper.other_way(traces[0].points) if traces else None
+                if first is None:  # there is always a start to tell of
+                    with clock.unlimited() if not traces else nullcontext():
+                        first = first_point(walker.system, x, y, direction, walker.settings, lead)
+            except clock.TimeUp:
+                traces.append(Trace([], end=time_up(walker.settings)))
+                continue
             if isinstance(first, Refused):
                 traces.append(Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
@@ -140,12 +150,15 @@ def completed(
 
     An interrupt meanwhile keeps the points, and ends the last of the curve's traces.
     """
-    if kind == "equilibria" and not any(t.end.status is Status.INTERRUPTED for t in traces):
+    if kind == "equilibria" and not any(t.end.status in (Status.INTERRUPTED, Status.MAX_TIME) for t in traces):
         try:
             return curve_rows(system, rows, settings.chord)
+        except clock.TimeUp:
+            traces[-1].end = time_up(settings)
         except KeyboardInterrupt:
             traces[-1].end = End(Status.INTERRUPTED, "stopped by the user before rows were laid between the points")
-    return curve_rows(system, rows, math.inf)
+    with clock.unlimited():
+        return curve_rows(system, rows, math.inf)
 
 
 def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
@@ -157,6 +170,7 @@ def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
     return [*rows, rows[0]] if closed else rows
 
 
+@clock.unlimited()
 def build_branch(
     kind: str,
     rows: CurveRows,

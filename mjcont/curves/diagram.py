@@ -11,6 +11,7 @@ from mjcont.curves.collect import Progress, build_branch, completed, ordered_row
 from mjcont.curves.continuation import continue_equilibria, find_equilibrium
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import correct, solve
 from mjcont.numerics.equations.problem import Array
@@ -21,7 +22,7 @@ from mjcont.numerics.points.events import Located
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.walk.steps import End, Status
-from mjcont.numerics.walk.trace import Trace, trace
+from mjcont.numerics.walk.trace import Trace, time_up, trace
 from mjcont.results.branch import Branch, Diagram
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint
@@ -59,7 +60,8 @@ def switch_branches(
         raise MjcontError(f"{point.label or 'this point'} is no branch point of equilibria: only those have branches")
     settings = make_settings(options)
     system = _system_at(point, bounds)
-    found = [_through(point, system, t, settings, progress) for t in point.vectors.get("tangents", ())]
+    with clock.limited(settings.max_seconds):
+        found = [_through(point, system, t, settings, progress) for t in point.vectors.get("tangents", ())]
     return [b for b in found if b is not None]
 
 
@@ -95,7 +97,11 @@ def _through(
         if halves and halves[0].end.status in (Status.CLOSED, Status.INTERRUPTED):
             halves.append(Trace([], end=halves[0].end))
             break
-        first = _leave(system, x, y, sign * tangent, settings)
+        try:
+            first = _leave(system, x, y, sign * tangent, settings)
+        except clock.TimeUp:
+            halves.append(Trace([], end=time_up(settings)))
+            continue
         if isinstance(first, Refused):
             halves.append(Trace([], end=End(Status.NO_START, f"the branch could not be entered: {first}")))
             continue
@@ -103,7 +109,8 @@ def _through(
     if not any(h.points for h in halves):
         return None
     local = system.local(x, y)
-    bp_point = CurvePoint(x, y, tangent, 0.0, local, system.jacobian(local, y))
+    with clock.unlimited():
+        bp_point = CurvePoint(x, y, tangent, 0.0, local, system.jacobian(local, y))
     known = {k: v for k, v in {**point.coefficients, **point.vectors}.items() if k in ("type", "c", "tangents", "w")}
     located = Located("BP", bp_point, point.tolerance, point.converged, known)
     for half in halves:  # a curve that closes comes back to the point it left
@@ -161,7 +168,26 @@ def bifurcation_diagram(
     tries: list[tuple[Any, str | None]] = [(s, None) for s in first] if not keyframes or starts is not None else []
     tries += [(first[0] if first else None, k) for k in keyframes]
     branches: list[Branch] = []
-    notes: list[str] = []
+    reached = ""
+    try:
+        with clock.limited(make_settings(options).max_seconds):
+            reached = _reach(problem, parameter, bounds, tries, branches, max_branches, progress, options)
+    except clock.TimeUp:
+        reached = f"the limit of {make_settings(options).max_seconds:g} s was reached"
+    return Diagram(tuple(branches), (reached,) if reached else ())
+
+
+def _reach(
+    problem: Any,
+    parameter: str,
+    bounds: tuple[float, float] | None,
+    tries: Sequence[tuple[Any, str | None]],
+    branches: list[Branch],
+    max_branches: int,
+    progress: Progress | None,
+    options: Mapping[str, Any],
+) -> str:
+    """Add every branch that is reached from the starts to `branches`; return which limit was met, or nothing."""
     for start, keyframe in tries:
         if any(b.interrupted for b in branches):
             break
@@ -178,11 +204,10 @@ def bifurcation_diagram(
         done.append(point)
         for branch in _new_branches(point, branches, bounds, progress, options):
             if len(branches) >= max_branches:
-                notes.append(f"the limit of {max_branches} branches was reached")
-                return Diagram(tuple(branches), tuple(notes))
+                return f"the limit of {max_branches} branches was reached"
             branches.append(branch)
             queue += branch.of_kind("BP")
-    return Diagram(tuple(branches), tuple(notes))
+    return ""
 
 
 def _new_branches(

@@ -14,6 +14,7 @@ from mjcont.curves.collect import Progress, build_branch, completed, ordered_row
 from mjcont.curves.loci import default_ends, locus_detectors
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused
@@ -66,10 +67,11 @@ def extend(
     settings = make_settings({**_own_options(branch), **options})
     free = _free(branch, bounds)
     result = branch
-    for end in ends:
-        segment = _segment(result, end, free, settings, progress)
-        if segment is not None:
-            result = _join(result, segment, end)
+    with clock.limited(settings.max_seconds):
+        for end in ends:
+            segment = _segment(result, end, free, settings, progress)
+            if segment is not None:
+                result = _join(result, segment, end)
     return replace(result, free={p.name: (p.low, p.high) for p in free})
 
 

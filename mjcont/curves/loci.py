@@ -12,6 +12,7 @@ from mjcont.curves.collect import Progress, collect, run_directions
 from mjcont.curves.continuation import check_direction, hold_rigid_modes
 from mjcont.curves.walkers import Zeros, zero_detectors
 from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Local, System
@@ -23,6 +24,7 @@ from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.model import check_bounds, model_of
 from mjcont.results.points import SpecialPoint, show
+from mjcont.results.quantities import meant_each
 
 CODIMENSION = {code: KINDS[code].codimension for code in CONTINUABLE}
 
@@ -73,7 +75,8 @@ def continue_special(
     free = _freed(point, kind, free_parameters(point, parameter, bounds))
     system = locus_system(point, kind, free)
     stop: Callable[[Any], str | None] | None = unfolding_stop(system) if kind == "BP" else None
-    detectors = locus_detectors(kind, system, settings, lyapunov, zeros or {})
+    zeros = meant_each(zeros, system.names, point.model.observables)
+    detectors = locus_detectors(kind, system, settings, lyapunov, zeros)
     for name in end_at or ():
         if name not in KINDS:
             raise unknown_name("kind of special point", name, KINDS)
@@ -81,7 +84,8 @@ def continue_special(
     walker = Walker(OneByOne(system, settings, detectors), stop, ends)
     directions = check_direction(direction)
     lead = len(free) - 1
-    traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
+    with clock.limited(settings.max_seconds):
+        traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
     where = ", ".join(f"{p.name} = {show(system.base[p.name], p.unit)}" for p in free)
     locus = collect(f"{kind} locus", system, traces, directions, f"from {point.label} at {where}", settings)
     return replace(locus, settings={**locus.settings, "zeros": dict(zeros)}) if zeros else locus

@@ -21,6 +21,7 @@ from mjcont.results.branch import Branch
 from mjcont.results.files import write_atomically
 from mjcont.results.loadpaths import LoadPath
 from mjcont.results.points import SpecialPoint, show
+from mjcont.results.quantities import column_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -328,8 +329,9 @@ def _check(branches: Sequence[Any], legend: Sequence[str] | bool | None, paths: 
 
 def _unit(branch: Branch, name: str) -> str:
     """Return the unit of a column, also of a parameter that the branch holds fixed."""
-    if name in branch.columns or branch.problem is None:
-        return branch.units.get(name, "")
+    own = column_of(name, branch.columns)
+    if own is not None or branch.problem is None:
+        return branch.units.get(own or name, "")
     return str(branch.model.parameter(name).unit)
 
 

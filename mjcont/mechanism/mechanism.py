@@ -10,7 +10,6 @@ parameter values: they are arguments of every method.
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -25,19 +24,19 @@ from mjcont.mechanism.declarations import Declaration
 from mjcont.mechanism.geometry import Geometry, refuse_overlap
 from mjcont.mechanism.observables import Observed, model_observables
 from mjcont.mechanism.parameters import collect_parameters, declared_parameter
+from mjcont.mechanism.parts import Held
 from mjcont.mechanism.summary import describe
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.models import features, loading
 from mjcont.models.actuators import bush_names
-from mjcont.models.mjcf import exact_text
 from mjcont.models.states import checked_state, coordinates_are_flat, keyframes, model_name, state_labels, state_scale
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.model import Model
-from mjcont.results.quantities import Parameter
+from mjcont.results.quantities import Parameter, told_apart
 from mjcont.results.text import ParameterTable
 
 
-class Mechanism(Observed, Model):
+class Mechanism(Observed, Held, Model):
     """A MuJoCo model as an equilibrium problem f(q, p) = 0 with named parameters and observables.
 
     Use `Mechanism.from_xml`, `from_spec` or `from_model` to make one.
@@ -50,7 +49,7 @@ class Mechanism(Observed, Model):
     parameters : dict of str to Parameter
         Declared in the model, every control, gravity_angle and load_factor.
     observables : dict of str to Observable
-        Every sensor and joint position.
+        Every sensor and joint position. One that is called like a parameter is `joint:NAME` or `sensor:NAME`.
     declared : dict
         Parameters declared in Python or by path, as results store them.
     keyframes : dict of str to (nq,) array
@@ -86,11 +85,11 @@ class Mechanism(Observed, Model):
         self.state_scale = state_scale(model)
         geometry = geometry or Geometry(None)
         self.parameters = collect_parameters(evaluation_copy(copy_model(model)), geometry)
-        self.observables = model_observables(model)
+        self.observables = told_apart(model_observables(model), self.parameters)
         self.declared = {}
         self.keyframes = keyframes(model)
         self.constrained, self._passive = is_constrained(model), features.passive(model)
-        self._held: tuple[str, ...] = ()
+        self._held = ()
         self._core = Core(model, self.parameters, geometry, self.constrained, self.state_scale, self.retract_each)
 
     # -- making one ----------------------------------------------------------------------------------------
@@ -113,10 +112,9 @@ class Mechanism(Observed, Model):
 
     @classmethod
     def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
-        """Take an `MjSpec` (copied)."""
-        notes: list[str] = []
-        model = loading.compile_spec(spec, notes)
-        return cls(model, exact_text(spec), friction, notes, Geometry(spec.copy()))
+        """Take an `MjSpec` (copied), without what needs files that are not there."""
+        loaded = loading.load_spec(spec)
+        return cls(loaded.model, loaded.text, friction, loaded.notes, Geometry(loaded.spec))
 
     @classmethod
     def from_model(cls, model: mujoco.MjModel, *, friction: str = "frictionless") -> Mechanism:
@@ -153,6 +151,9 @@ class Mechanism(Observed, Model):
         given = Declaration(name, unit, bounds, tuple(paths), function, value)
         parameter = declared_parameter(self._core.as_loaded(), self._core.geometry, given)
         self.parameters[name] = parameter
+        renamed = told_apart(self.observables, self.parameters)
+        self.observables.clear()
+        self.observables.update(renamed)
         self.declared[name] = given.record(parameter)
         if parameter.kind == "spec":
             self._core.relayout()
@@ -195,6 +196,11 @@ class Mechanism(Observed, Model):
         self._core.writer.write(self.parameters, values)
         return self._core.evaluator.forces(self.retract_each(x, steps)).copy()
 
+    @property
+    def pieces(self) -> list[bytes]:
+        """On which smooth piece of the forces each row of the last evaluation lies; empty where they are smooth."""
+        return self._core.evaluator.sides
+
     def side_by_side(self, name: str) -> bool:
         """Whether states that differ in a parameter are evaluated in one batch: the forces are smooth, it a control."""
         return not self._held and self._core.derivatives.side_by_side(name)
@@ -224,7 +230,7 @@ class Mechanism(Observed, Model):
             return found
         mass = self._core.evaluator.mass(x)
         held = rigid.rate(found.jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
-        return Linearization(found.f, found.jac - held, found.par)
+        return Linearization(found.f, found.jac - held, found.par, found.piece)
 
     def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""
@@ -269,35 +275,6 @@ class Mechanism(Observed, Model):
     def periods(self, x: Array, values: Values) -> Array:
         """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
         return rigid.full_turns(self, x, values)
-
-    # -- rigid-body zero modes -------------------------------------------------------------------------------
-
-    def rigid_modes(self, x: Array, values: Values, among: Sequence[str] | None = None) -> tuple[str, ...]:
-        """Return the names of the rigid-body motions that no force opposes near a state, of all or `among` some."""
-        return rigid.zero_modes(self.holding(()), self._core.model, self._core.evaluator.position, x, values, among)
-
-    @property
-    def held(self) -> tuple[str, ...]:
-        """The rigid-body modes that are held."""
-        return self._held
-
-    def rigid_directions(self, x: Array) -> dict[str, Array]:
-        """Return the tangent vectors (nv,) along the held rigid-body modes, by name."""
-        return rigid.directions(self._core.model, self._core.evaluator.position(x), self._held)
-
-    def holding(self, modes: Sequence[str]) -> Mechanism:
-        """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""
-        held = copy.copy(self)
-        held._held = tuple(modes)
-        return held
-
-    def admissible(self, x: Array, step: Array) -> Array:
-        """Return a tangent step without its part along held rigid-body modes, which nothing else would correct."""
-        return rigid.without_modes(step, self._core.evaluator.mass(x), self._held_directions(x)) if self._held else step
-
-    def _held_directions(self, x: Array) -> Array:
-        found = list(self.rigid_directions(x).values())
-        return np.column_stack(found) if found else np.zeros((self.n, 0))
 
     # -- the manifold ----------------------------------------------------------------------------------------
 

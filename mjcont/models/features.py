@@ -71,15 +71,35 @@ def passive(model: mujoco.MjModel) -> bool:
     """
     dampers = (model.dof_damping, model.tendon_damping, model.actuator_damping)
     plain = np.all(model.actuator_gaintype == int(mujoco.mjtGain.mjGAIN_FIXED)) and not model.na
-    affine = model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_AFFINE)
     none = model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_NONE)
-    resisting = np.all(none | (affine & (model.actuator_biasprm[:, 2] <= 0)))
+    resisting = np.all(none | (_affine_bias(model) & (model.actuator_biasprm[:, 2] <= 0)))
+    return bool(plain and resisting and explicit_damping(model) and all(np.all(d >= 0) for d in dampers))
+
+
+def _affine_bias(model: mujoco.MjModel) -> np.ndarray:
+    return model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_AFFINE)
+
+
+def explicit_damping(model: mujoco.MjModel) -> bool:
+    """Whether the resistance to velocities at rest is known in closed form (see `dampers`)."""
+    gains = [int(g) for g in (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtGain.mjGAIN_AFFINE, mujoco.mjtGain.mjGAIN_MUSCLE)]
+    laws = [int(b) for b in (mujoco.mjtBias.mjBIAS_NONE, mujoco.mjtBias.mjBIAS_AFFINE, mujoco.mjtBias.mjBIAS_MUSCLE)]
+    known = np.all(np.isin(model.actuator_gaintype, gains)) and np.all(np.isin(model.actuator_biastype, laws))
     elsewhere = model.opt.density or model.opt.viscosity or model.nplugin or model.nflex
-    polynomials = (model.dof_dampingpoly, model.tendon_dampingpoly, model.actuator_dampingpoly)
-    return bool(
-        plain and resisting and not elsewhere
-        and all(np.all(d >= 0) for d in dampers) and not any(p.any() for p in polynomials)
-    )
+    return bool(known and not elsewhere and np.all(model.actuator_outnum == 1) and not _polynomials(model))
+
+
+def linear_in_velocity(model: mujoco.MjModel) -> bool:
+    """Whether forces are linear in velocity on each smooth piece, so that steps of unit speed are exact."""
+    linear = [int(g) for g in (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtGain.mjGAIN_AFFINE)]
+    laws = _affine_bias(model) | (model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_NONE))
+    straight = np.all(np.isin(model.actuator_gaintype, linear)) and np.all(laws)
+    return bool(straight and not (model.opt.density or model.nplugin or _polynomials(model)))
+
+
+def _polynomials(model: mujoco.MjModel) -> bool:
+    """Whether a damper has higher powers of the velocity."""
+    return any(p.any() for p in (model.dof_dampingpoly, model.tendon_dampingpoly, model.actuator_dampingpoly))
 
 
 def friction_notes(model: mujoco.MjModel, friction: str) -> list[str]:

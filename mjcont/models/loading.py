@@ -89,6 +89,12 @@ def compile_spec(spec: mujoco.MjSpec, notes: list[str] | None = None) -> mujoco.
             notes += (f"MuJoCo: {message}" for message in told)
 
 
+def parse_present(text: str, folder: Path | None, label: str) -> tuple[mujoco.MjSpec, tuple[str, ...]]:
+    """Return the spec of an XML text without what needs missing files, and what that means, a sentence each."""
+    spec = parse(text, folder, label)
+    return spec, assets.drop_missing(spec, (folder or Path()).resolve())
+
+
 def load(source: str | Path) -> Loaded:
     """Return the compiled model of a source, with the spec behind it.
 
@@ -108,6 +114,18 @@ def load(source: str | Path) -> Loaded:
         spec, place = parse(text, None, "with everything it includes"), Path()
         model = compile_spec(spec)
     return Loaded(model, text, notes, spec, place if folder is not None and not rewritten else None)
+
+
+def load_spec(spec: mujoco.MjSpec) -> Loaded:
+    """Return what `load` does, of a copy of a spec."""
+    own = spec.copy()
+    own.modelfiledir = spec.modelfiledir
+    dropped, told = assets.drop_missing(own, Path(spec.modelfiledir or ".").resolve()), list[str]()
+    model = compile_spec(own, told)
+    notes = tuple(dict.fromkeys((*assets.read_notes(own), *dropped, *told)))
+    if dropped:
+        assets.write_notes(own, notes)
+    return Loaded(model, exact_text(own), notes, own.copy(), None)
 
 
 def _one_line(error: Warning | Exception | str) -> str:

@@ -130,6 +130,33 @@ class Document:
             self.remove(parent)
 
 
+def included(text: str, folder: Path) -> str:
+    """Return a text with those that it includes in their places; what cannot be read is left to MuJoCo to say."""
+    if "<include" not in text:
+        return text
+    try:
+        document = Document(text)
+        while (change := _insert_included(document, folder)) is not None:
+            document = change
+    except (ElementTree.ParseError, OSError, UnicodeDecodeError):
+        return text
+    return str(document)
+
+
+def _insert_included(document: Document, folder: Path) -> Document | None:
+    """Put the children of one included text in the place of its <include>; None if there is none left."""
+    parents = document.parents()
+    found = next((e for e in document.root.iter("include") if e.get("file")), None)
+    if found is None:
+        return None
+    parent, children = parents[found], list(Document((folder / str(found.get("file"))).read_text("utf-8")).root)
+    index = list(parent).index(found)
+    parent.remove(found)
+    for k, child in enumerate(children):
+        document.insert(parent, child, index + k)
+    return document
+
+
 def is_element(item: Any) -> bool:
     """Whether it is an element, not a comment."""
     return isinstance(item.tag, str)

@@ -51,6 +51,11 @@ class Leg(Model):
         return self.problem.nonsmooth
 
     @property
+    def pieces(self) -> Sequence[bytes]:
+        """On which smooth piece of f each row of the last evaluation lies."""
+        return self.problem.pieces
+
+    @property
     def failure(self) -> str:
         """Why f had no value where it was evaluated last."""
         return self.problem.failure
@@ -130,7 +135,7 @@ class Leg(Model):
         if FRACTION not in wrt:
             return lin
         slope = lin.par @ np.array([self.last[n] - self.first[n] for n in names])
-        return Linearization(lin.f, lin.jac, slope[:, None])
+        return Linearization(lin.f, lin.jac, slope[:, None], lin.piece)
 
     def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""

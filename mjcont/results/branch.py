@@ -16,6 +16,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.results.certificates import Certificate
 from mjcont.results.model import Model, model_of
 from mjcont.results.points import Column, Mark, Point, SpecialPoint, show
+from mjcont.results.quantities import column_of
 from mjcont.results.spectra import Spectra
 
 
@@ -74,16 +75,16 @@ class Branch:
 
     def __getitem__(self, name: str) -> Array:
         """Return a column, SI and radians, (N,)."""
-        if name in self.columns:
-            return self.columns[name].values
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].values
         if name in self.fixed:
             return np.full(len(self), self.fixed[name])
         raise unknown_name("column", name, [*self.columns, *self.fixed])
 
     def unit(self, name: str) -> str:
         """Return the unit of a column or of a fixed parameter."""
-        if name in self.columns:
-            return self.columns[name].unit
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].unit
         if name in self.fixed:
             return self.fixed_units.get(name, "")
         raise unknown_name("column", name, [*self.columns, *self.fixed])

@@ -26,6 +26,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, write_atomically, write_columns, write_common
 from mjcont.results.model import Model
 from mjcont.results.points import Column
+from mjcont.results.quantities import column_of
 
 KIND = "history"
 
@@ -64,16 +65,16 @@ class History:
 
     def __getitem__(self, name: str) -> Array:
         """Return a column, (N,)."""
-        if name in self.columns:
-            return self.columns[name].values
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].values
         if name in self.fixed:
             return np.full(len(self), self.fixed[name])
         raise unknown_name("column", name, [*self.columns, *self.fixed])
 
     def unit(self, name: str) -> str:
         """Return the unit of a column or of a fixed parameter."""
-        if name in self.columns:
-            return self.columns[name].unit
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].unit
         if name in self.fixed:
             return str(self.problem.parameter(name).unit) if self.problem is not None else ""
         raise unknown_name("column", name, [*self.columns, *self.fixed])

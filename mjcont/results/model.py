@@ -8,7 +8,7 @@ from typing import Any
 
 from mjcont.errors import BoundsError, MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array, Equations, Values
-from mjcont.results.quantities import Observable, Parameter, finite_pair
+from mjcont.results.quantities import Observable, Parameter, column_of, finite_pair
 
 
 class Model(Equations):
@@ -63,10 +63,11 @@ class Model(Equations):
         return self.parameters[name]
 
     def observable(self, name: str) -> Observable:
-        """Return the observable called `name`."""
-        if name not in self.observables:
+        """Return the observable called `name`; a parameter may have the same name (see `told_apart`)."""
+        own = column_of(name, self.observables)
+        if own is None:
             raise unknown_name("observable", name, self.observables)
-        return self.observables[name]
+        return self.observables[own]
 
 
 def model_of(problem: Equations | None, what: str = "the point") -> Model:

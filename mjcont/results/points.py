@@ -11,6 +11,7 @@ from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import name_of
 from mjcont.results.model import Model, model_of
+from mjcont.results.quantities import column_of
 
 # observables that a summary line shows; all are in the columns
 _SHOWN = 5
@@ -51,8 +52,8 @@ class Point:
         """Return a parameter's or observable's value."""
         if name in self.parameters:
             return self.parameters[name]
-        if name in self.observables:
-            return self.observables[name]
+        if (own := column_of(name, self.observables)) is not None:
+            return self.observables[own]
         raise unknown_name("parameter or observable", name, [*self.parameters, *self.observables])
 
     @property

@@ -206,7 +206,7 @@ def test_a_state_of_the_wrong_size_is_refused():
 
 def test_a_start_without_an_equilibrium_is_an_error_that_says_where_it_looked():
     field = scalar(lambda x, p: 1.0 + p["mu"] ** 2 + x**2, 0.0, mu=0.0)
-    with pytest.raises(mc.StartError, match="no equilibrium found from the model's initial pose"):
+    with pytest.raises(mc.StartError, match="no equilibrium found from u0"):
         mc.continue_equilibria(field, "mu", bounds=(-1.0, 1.0))
 
 
