@@ -236,11 +236,16 @@ def _direction(model: mujoco.MjModel, data: mujoco.MjData, known: Sequence[str],
     z = directions(model, data, [name]).get(name)
     own, whole = divided(known)
     others = list({**rigid.directions(model, data, whole), **directions(model, data, own)}.values())
-    if z is None or not others:
-        return z
+    return z if z is not None and _independent(z, others) else None
+
+
+def _independent(z: Array, others: Sequence[Array]) -> bool:
+    """Whether no combination of other tangent vectors makes one up."""
+    if not others:
+        return True
     basis = np.column_stack(others)
     rest = z - basis @ least_squares(basis, z)
-    return z if np.linalg.norm(rest) > _SAME * np.linalg.norm(z) else None
+    return bool(np.linalg.norm(rest) > _SAME * np.linalg.norm(z))
 
 
 class Held:
@@ -283,5 +288,7 @@ class Held:
         return rigid.without_modes(step, self._core.evaluator.mass(x), self._held_directions(x)) if self._held else step
 
     def _held_directions(self, x: Array) -> Array:
-        found = list(self.rigid_directions(x).values())
+        found = list[Array]()
+        for z in self.rigid_directions(x).values():  # a rod that hangs down turns about itself and about the vertical
+            found += [z] if _independent(z, found) else []
         return np.column_stack(found) if found else np.zeros((self.n, 0))
