@@ -135,7 +135,9 @@ def correct(
     failure: Refused | None = Refused(Why.UNSETTLED, "the corrector did not converge")
     tol = settings.tol
     local, iterations = local or system.local(x, y), 0
-    steps, chord, creeps = list[Array](), None, False
+    steps, creeps = list[Array](), False
+    before: Array | None = None
+    chord: Array | None = None
     while iterations < settings.max_corrections:
         iterations += 1
         if lu is None:

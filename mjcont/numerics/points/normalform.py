@@ -192,7 +192,7 @@ def crossing(local: Local, kernel: Array, w: Array, slope: float) -> Crossing:
     name = local.wrt[0]
     problem, value = local.problem, local.values[name]
 
-    low, high = local.ranges[0] if local.ranges else (-math.inf, math.inf)
+    low, high = (local.ranges[0] if local.ranges else None) or (-math.inf, math.inf)
 
     def along(direction: Array) -> float:
         h, rate = 5e-3, slope * float(direction[-1])
