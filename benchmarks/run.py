@@ -15,6 +15,7 @@ from benchmarks import auto_peer, cases, jobs, peers
 from benchmarks.chords import chord_error
 from benchmarks.measure import machine, medians, seconds
 from benchmarks.points import Floor, growth, per_point, split
+from mjcont.saving import write_file
 
 _US = 1e6
 # weight of the parameter in AUTO's arclength, and its largest step, of the size that its own demos use
@@ -111,7 +112,7 @@ def main() -> None:
         )
         result["jobs [s]"]["reproduce"] = jobs.reproduce()
     given.output.parent.mkdir(parents=True, exist_ok=True)
-    given.output.write_text(json.dumps(result, indent=1))
+    write_file(given.output, json.dumps(result, indent=1))
     print(table(result))
     print(f"written: {given.output}")
 

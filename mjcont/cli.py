@@ -178,6 +178,7 @@ def _report(args: argparse.Namespace) -> int:
 def _bush(args: argparse.Namespace) -> int:
     from mjcont.bushes import bushed_xml
     from mjcont.loading import compile_spec, parse
+    from mjcont.saving import write_file
 
     out = Path(args.out)
     if out.exists() and Path(args.model).exists() and out.samefile(args.model):
@@ -188,7 +189,7 @@ def _bush(args: argparse.Namespace) -> int:
         )
     compile_spec(parse(text, out.resolve().parent, f"'{out}' (files beside the model must be beside it, too)"))
     out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_text(text, encoding="utf-8")
+    write_file(out, text)
     say(f"written: {out}")
     return OK
 

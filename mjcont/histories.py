@@ -92,9 +92,9 @@ class History:
 
     def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
         """Write the columns as CSV with units in the header."""
-        from mjcont.storage import write_columns
+        from mjcont.storage import csv_columns
 
-        return write_columns(self.columns, path, degrees=degrees)
+        return csv_columns(self.columns, path, degrees=degrees)
 
     def __str__(self) -> str:
         """Return a one-line summary."""

@@ -1,10 +1,10 @@
 """Time histories as HDF5, in the layout of `storage.py`.
 
-Layout (format version 1)::
+Layout (format version 2)::
 
     /               attributes: format, format_version, kind "history", name, status, message, settings (JSON), ...
     /model          the MJCF text (absent for a Mechanism made from a compiled model)
-    /columns/NAME   (N,) float64, attributes unit, role
+    /columns/KEY    (N,) float64, attributes name, unit, role
     /fixed          attributes: the other parameters' values (absent in older files)
     /states         (N, nq) float64
     /velocities     (N, nv) float64
@@ -19,30 +19,38 @@ from typing import Any
 import h5py
 
 from mjcont.histories import History
-from mjcont.storage import FORMAT_VERSION, frozen, read_columns, read_problem, write_atomically, write_common
+from mjcont.storage import (
+    FORMAT_VERSION,
+    frozen,
+    read_columns,
+    read_problem,
+    read_values,
+    save_hdf5,
+    write_common,
+    write_values,
+)
 
 KIND = "history"
 
 
 def save(history: History, path: str | Path) -> Path:
     """Write a history as HDF5."""
-    return write_atomically(path, lambda temporary: _write(history, temporary))
+    return save_hdf5(path, lambda f: _write(history, f))
 
 
-def _write(history: History, path: Path) -> None:
-    with h5py.File(path, "w") as f:
-        f.attrs.update(
-            format="mjcont",
-            format_version=FORMAT_VERSION,
-            kind=KIND,
-            name=history.name,
-            status=history.status,
-            message=history.message,
-            settings=json.dumps(dict(history.settings)),
-        )
-        write_common(f, history)
-        f["states"], f["velocities"] = history.states, history.velocities
-        f.create_group("fixed").attrs.update(dict(history.fixed))
+def _write(history: History, f: h5py.File) -> None:
+    f.attrs.update(
+        format="mjcont",
+        format_version=FORMAT_VERSION,
+        kind=KIND,
+        name=history.name,
+        status=history.status,
+        message=history.message,
+        settings=json.dumps(dict(history.settings)),
+    )
+    write_common(f, history)
+    f["states"], f["velocities"] = history.states, history.velocities
+    write_values(f, "fixed", history.fixed)
 
 
 def read(f: h5py.File, problem: Any) -> History:
@@ -61,6 +69,6 @@ def read(f: h5py.File, problem: Any) -> History:
         settings=json.loads(f.attrs["settings"]),
         name=str(f.attrs["name"]),
         problem=read_problem(f, problem),
-        fixed={k: float(v) for k, v in f["fixed"].attrs.items()} if "fixed" in f else {},
+        fixed=read_values(f, "fixed") if "fixed" in f else {},
         provenance={k.removeprefix(prefix): str(v) for k, v in f.attrs.items() if k.startswith(prefix)},
     )

@@ -1,6 +1,6 @@
 """Load paths in HDF5 files.
 
-Layout (format version 1)::
+Layout (format version 2)::
 
     /                 attributes: format, format_version, kind "load path", name, vertices (JSON), status, message
     /model            the MJCF text
@@ -18,43 +18,42 @@ from typing import Any
 import h5py
 
 from mjcont.pathresults import Jump, LoadPath, Segment
-from mjcont.storage import FORMAT_VERSION, read_branch, write_atomically, write_branch
+from mjcont.storage import FORMAT_VERSION, read_branch, save_hdf5, write_branch
 
 
 def save_path(path: LoadPath, file: str | Path) -> Path:
     """Write a load path as HDF5."""
-    return write_atomically(file, lambda temporary: _write(path, temporary))
+    return save_hdf5(file, lambda f: _write(path, f))
 
 
-def _write(path: LoadPath, file: Path) -> None:
-    with h5py.File(file, "w") as f:
-        f.attrs.update(
-            format="mjcont",
-            format_version=FORMAT_VERSION,
-            kind="load path",
-            name=path.name,
-            vertices=json.dumps([dict(v) for v in path.vertices]),
-            status=path.status,
-            message=path.message,
-            evaluations=path.evaluations,
-            declared=json.dumps(getattr(path.problem, "declared", {})),
+def _write(path: LoadPath, f: h5py.File) -> None:
+    f.attrs.update(
+        format="mjcont",
+        format_version=FORMAT_VERSION,
+        kind="load path",
+        name=path.name,
+        vertices=json.dumps([dict(v) for v in path.vertices]),
+        status=path.status,
+        message=path.message,
+        evaluations=path.evaluations,
+        declared=json.dumps(getattr(path.problem, "declared", {})),
+    )
+    mjcf = getattr(path.problem, "mjcf", None)
+    if mjcf is not None:
+        f["model"] = mjcf
+    for i, s in enumerate(path.segments):
+        g = f.create_group(f"segments/{i}")
+        write_branch(s.branch, g, model=False)
+        g.attrs.update(direction=s.direction, leg=s.leg)
+    for i, j in enumerate(path.jumps):
+        g = f.create_group(f"jumps/{i}")
+        g.attrs.update(
+            label=j.label, kind=j.kind, index=j.index, energy_note=j.energy_note, time=j.time, steps=j.steps,
+            status=j.status, message=j.message, landed=j.after is not None,
         )
-        mjcf = getattr(path.problem, "mjcf", None)
-        if mjcf is not None:
-            f["model"] = mjcf
-        for i, s in enumerate(path.segments):
-            g = f.create_group(f"segments/{i}")
-            write_branch(s.branch, g, model=False)
-            g.attrs.update(direction=s.direction, leg=s.leg)
-        for i, j in enumerate(path.jumps):
-            g = f.create_group(f"jumps/{i}")
-            g.attrs.update(
-                label=j.label, kind=j.kind, index=j.index, energy_note=j.energy_note, time=j.time, steps=j.steps,
-                status=j.status, message=j.message, landed=j.after is not None,
-            )
-            if j.energy is not None:
-                g.attrs["energy"] = j.energy
-            g["states"] = j.states
+        if j.energy is not None:
+            g.attrs["energy"] = j.energy
+        g["states"] = j.states
 
 
 def read_path(f: h5py.File, problem: Any) -> LoadPath:

@@ -158,11 +158,11 @@ class LoadPath:
 
     def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
         """Write the columns along the whole path as CSV with units in the header; a jump lies between two rows."""
-        from mjcont.storage import write_columns
+        from mjcont.storage import csv_columns
 
         names = [*self.names, *(n for n in self.segments[0].branch.columns if n not in self.names)]
         columns = {n: Column(n, self.unit(n), "path", self[n]) for n in names}
-        return write_columns(columns, path, degrees=degrees)
+        return csv_columns(columns, path, degrees=degrees)
 
     def save(self, path: str | Path) -> Path:
         """Write the path to an HDF5 file (replacing it whole or not at all) and return the file's path."""

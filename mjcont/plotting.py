@@ -6,6 +6,7 @@ by the Agg canvas and need no display.
 
 from __future__ import annotations
 
+import io
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,7 @@ from mjcont.errors import MjcontError
 from mjcont.numerics.problem import Array
 from mjcont.pathplots import axis_label, draw_path
 from mjcont.pathresults import LoadPath
-from mjcont.storage import write_atomically
+from mjcont.saving import write_file
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -315,11 +316,10 @@ def save_figure(figure: Figure, path: str | Path, *, dpi: float = 200.0) -> Path
         place_labels(ax)
     metadata = dates[path.suffix.lower()]
 
-    def write(temporary: Path) -> None:
-        with matplotlib.rc_context({"svg.hashsalt": "mjcont"}):
-            figure.savefig(temporary, dpi=dpi, metadata=metadata)
-
-    return write_atomically(path, write)
+    picture = io.BytesIO()
+    with matplotlib.rc_context({"svg.hashsalt": "mjcont"}):
+        figure.savefig(picture, format=path.suffix.lower()[1:], dpi=dpi, metadata=metadata)
+    return write_file(path, picture.getvalue())
 
 
 def _check(branches: Sequence[Any], legend: Sequence[str] | bool | None, paths: bool = False) -> None:

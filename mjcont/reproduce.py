@@ -34,7 +34,7 @@ from mjcont.errors import MjcontError, NameLookupError
 from mjcont.loading import models_folder
 from mjcont.numerics.problem import Array
 from mjcont.report import as_html, markdown, verdict
-from mjcont.storage import write_atomically
+from mjcont.saving import write_file
 
 _SCRIPT = re.compile(r"fig(\d\d)\.py")
 _ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
@@ -204,8 +204,8 @@ def draw(
             say(str(result))
     finally:
         done = [results[n] for n in stamps if n in results]
-        _write(out / "report.md", markdown(done, versions()))
-        report = _write(out / "report.html", as_html(done, versions()))
+        write_file(out / "report.md", markdown(done, versions()))
+        report = write_file(out / "report.html", as_html(done, versions()))
     say(f"report: {report}")
     return ReproduceResult({n: results[n] for n in chosen}, report)
 
@@ -279,7 +279,7 @@ def _draw(figure: int | str, script: Path, out: Path, stamp: str) -> None:
     except Exception as error:
         findings, reason = (), _one_line(error)
     text = json.dumps(asdict(_result(figure, script, findings, reason, stamp)), indent=2) + "\n"
-    _write(record, text)
+    write_file(record, text)
 
 
 def load_script(script: Path) -> ModuleType:
@@ -325,13 +325,6 @@ def _script(figure: int | str) -> Path:
 
 def _record(out: Path, figure: int | str) -> Path:
     return out / f"{stem(figure)}.json"
-
-
-def _write(path: Path, text: str) -> Path:
-    def write(temporary: Path) -> None:
-        temporary.write_bytes(text.encode())
-
-    return write_atomically(path, write)
 
 
 def _read(out: Path, figure: int | str) -> FigureResult | None:

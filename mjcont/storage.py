@@ -1,77 +1,59 @@
 """Files: branches as HDF5 that other tools read, and as CSV. Nothing read from a file is executed.
 
-Layout of an HDF5 file (format version 1)::
+Layout of an HDF5 file (format version 2; behind it stands the seal of `sealing`)::
 
     /                     attributes: format, format_version, kind, name, start, start_index, settings (JSON),
                           declared (JSON: parameters by path; of a Python function only the name), ...
     /model                the MJCF text (absent for a VectorField)
-    /columns/NAME         (N,) float64, attributes unit, role
+    /columns/KEY          (N,) float64, attributes name, unit, role; KEY is the name as `hdf5names` writes it
     /states               (N, nq) float64, attributes names, units
     /eigenvalues/real, /eigenvalues/imag   (N, m) float64
     /stability            (N,) int8: 1 stable, 0 marginal, -1 unstable
     /n_unstable           (N,) int32
     /residuals            (N,) float64, scaled
-    /fixed                attributes: the other parameters' values
+    /fixed                attributes: the other parameters' values, by the keys of their names
     /special_points/LABEL attributes: kind, index, tolerance, converged, note, coefficients (JSON); vectors/NAME
 
-A load path (kind "load path") holds such a group for each of its segments: see `pathfiles`.
+A load path (kind "load path") holds such a group for each of its segments: see `pathfiles`. In version 1 names stood
+for themselves, as paths, and nothing was sealed.
 """
 
 from __future__ import annotations
 
-import csv
 import json
 import math
-import os
-import tempfile
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import h5py
 import numpy as np
 
 from mjcont.branch import Branch, Column, Point, SpecialPoint
-from mjcont.errors import MjcontError, ModelWarning, ResultFileError
+from mjcont.csvfiles import write_table
+from mjcont.errors import MjcontError, ModelWarning, ResultFileError, ResultWarning
+from mjcont.hdf5names import key
+from mjcont.saving import write_file
+from mjcont.sealing import Damaged, opened, refuse_broken_seal, sealed_file
 
-if TYPE_CHECKING:
-    pass
-
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 # What h5py, json and our own reading raise on files with parts missing or overwritten.
-_DAMAGED = (KeyError, IndexError, ValueError, TypeError, AttributeError, OSError, RuntimeError, MjcontError)
+_DAMAGED = (
+    LookupError, ValueError, TypeError, AttributeError, ArithmeticError, AssertionError, OSError, RuntimeError,
+    MemoryError, MjcontError,
+)
 _CODES = {"stable": 1, "marginal": 0, "unstable": -1}
 
 
-def write_atomically(path: str | Path, write: Callable[[Path], None]) -> Path:
-    """Let `write` fill a temporary file beside `path`, then put it in place in one step."""
-    path = Path(path)
-    if not path.parent.is_dir():
-        raise MjcontError(f"cannot write {path}: the folder {path.parent} does not exist")
-    try:
-        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=path.suffix, dir=path.parent)
-    except OSError as error:
-        raise MjcontError(f"cannot write {path}: {error.strerror}") from error
-    os.close(handle)
-    try:
-        write(Path(name))
-        os.chmod(name, 0o644)
-        os.replace(name, path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
-    return path
+def save_hdf5(path: str | Path, fill: Callable[[h5py.File], None]) -> Path:
+    """Write what `fill` puts into an HDF5 file, sealed, whole or not at all."""
+    return write_file(path, sealed_file(fill))
 
 
 def save(branch: Branch, path: str | Path) -> Path:
     """Write a branch as HDF5."""
-    return write_atomically(path, lambda temporary: _write(branch, temporary))
-
-
-def _write(branch: Branch, path: Path) -> None:
-    with h5py.File(path, "w") as f:
-        write_branch(branch, f)
+    return save_hdf5(path, lambda f: write_branch(branch, f))
 
 
 def write_branch(branch: Branch, f: h5py.Group, *, model: bool = True) -> None:
@@ -99,7 +81,7 @@ def write_branch(branch: Branch, f: h5py.Group, *, model: bool = True) -> None:
     f["stability"].attrs["meaning"] = "1 stable, 0 marginal, -1 unstable"
     f["n_unstable"] = branch.n_unstable.astype(np.int32)
     f["residuals"] = branch.residuals
-    f.create_group("fixed").attrs.update(dict(branch.fixed))
+    write_values(f, "fixed", branch.fixed)
     f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
     if branch.certificate is not None:
         f.attrs["certificate"] = branch.certificate.to_json()
@@ -115,9 +97,28 @@ def write_common(f: h5py.Group, result: Any, *, model: bool = True) -> None:
     if mjcf is not None and model:
         f["model"] = mjcf
     f.attrs["declared"] = json.dumps(getattr(result.problem, "declared", {}))
-    for c in result.columns.values():
-        f.create_dataset(f"columns/{c.name}", data=c.values, track_order=True).attrs.update(unit=c.unit, role=c.role)
-    f["columns"].attrs["order"] = json.dumps(list(result.columns))
+    write_columns(f, result.columns)
+
+
+def write_columns(f: h5py.Group, columns: Mapping[str, Column]) -> None:
+    """Write columns, any names."""
+    group = f.create_group("columns")
+    for name, c in columns.items():
+        dataset = group.create_dataset(key(name), data=c.values, track_order=True)
+        dataset.attrs.update(name=json.dumps(name), unit=c.unit, role=c.role)
+    group.attrs.update(order=json.dumps(list(columns)), keys=json.dumps([key(name) for name in columns]))
+
+
+def write_values(f: h5py.Group, name: str, values: Mapping[str, float]) -> None:
+    """Write numbers by any names, as attributes of a group."""
+    f.create_group(name).attrs.update({key(n): v for n, v in values.items()})
+    f.attrs[f"{name}_keys"] = json.dumps({key(n): n for n in values})
+
+
+def read_values(f: h5py.Group, name: str) -> dict[str, float]:
+    """Return what `write_values` wrote."""
+    names = json.loads(f.attrs.get(f"{name}_keys", "{}"))
+    return {names.get(k, k): float(v) for k, v in f[name].attrs.items()}
 
 
 def _write_special(g: h5py.Group, p: SpecialPoint) -> None:
@@ -146,36 +147,54 @@ def load(path: str | Path, problem: Any = None) -> Any:
     if not path.is_file():
         raise ResultFileError(f"result file '{path}': no such file")
     try:
-        f = h5py.File(path, "r")
+        data = path.read_bytes()
+    except OSError as error:
+        raise ResultFileError(f"result file '{path}' cannot be read: {error.strerror or error}") from error
+    try:
+        f, sealed = opened(data)
     except OSError as error:
         raise ResultFileError(f"result file '{path}' is not an HDF5 file") from error
+    except Damaged as error:
+        raise ResultFileError(f"result file '{path}' is incomplete or damaged: {error}") from error
     with f:
         try:
-            if f.attrs.get("format") != "mjcont":
-                raise ResultFileError(f"result file '{path}' was not written by mjcont")
-            version = int(f.attrs["format_version"])
-            if version > FORMAT_VERSION:
-                raise ResultFileError(
-                    f"result file '{path}' has format version {version}; this mjcont reads up to "
-                    f"{FORMAT_VERSION}: upgrade mjcont"
-                )
-            if f.attrs["kind"] == "history":
-                from mjcont.historyfiles import read
+            found = _read(f, problem, sealed)
+        except (*_DAMAGED, Damaged, _Unfit) as error:
+            what = error if isinstance(error, _Unfit) else f"is incomplete or damaged: {error}"
+            raise ResultFileError(f"result file '{path}' {what}") from error
+    if not sealed:
+        warnings.warn(
+            f"result file '{path}' has no checksums (an older mjcont wrote it): damaged numbers would not be noticed",
+            ResultWarning, stacklevel=2,
+        )
+    return found
 
-                return read(f, problem)
-            if f.attrs["kind"] == "sweep":
-                from mjcont.sweeptable import read_table
 
-                return read_table(f)
-            if f.attrs["kind"] == "load path":
-                from mjcont.pathfiles import read_path
+class _Unfit(Exception):
+    """A file that is what it should be, but not for us; the sentence goes on after its name."""
 
-                return read_path(f, read_problem(f, problem))
-            return read_branch(f, read_problem(f, problem))
-        except ResultFileError:
-            raise
-        except _DAMAGED as error:
-            raise ResultFileError(f"result file '{path}' is incomplete or damaged: {error}") from error
+
+def _read(f: h5py.File, problem: Any, sealed: bool) -> Any:
+    if f.attrs.get("format") != "mjcont":
+        raise _Unfit("was not written by mjcont")
+    version = int(f.attrs["format_version"])
+    if version > FORMAT_VERSION:
+        raise _Unfit(f"has format version {version}; this mjcont reads up to {FORMAT_VERSION}: upgrade mjcont")
+    if not sealed:
+        refuse_broken_seal(f)
+    if f.attrs["kind"] == "history":
+        from mjcont.historyfiles import read
+
+        return read(f, problem)
+    if f.attrs["kind"] == "sweep":
+        from mjcont.sweeptable import read_table
+
+        return read_table(f)
+    if f.attrs["kind"] == "load path":
+        from mjcont.pathfiles import read_path
+
+        return read_path(f, read_problem(f, problem))
+    return read_branch(f, read_problem(f, problem))
 
 
 def read_problem(f: h5py.File, problem: Any) -> Any:
@@ -188,9 +207,9 @@ def read_problem(f: h5py.File, problem: Any) -> Any:
             problem = Mechanism.from_xml(f["model"].asstr()[()])
         for name, given in json.loads(f.attrs["declared"]).items():
             if "function" in given:
-                raise ResultFileError(
-                    f"result file '{f.filename}': its parameter '{name}' is the Python function {given['function']}, "
-                    "which a file cannot carry: declare it on a Mechanism again and load with problem=mechanism"
+                raise _Unfit(
+                    f"has the parameter '{name}', the Python function {given['function']}, which a file cannot carry: "
+                    "declare it on a Mechanism again and load with problem=mechanism"
                 )
             problem.declare(name, *given["paths"], unit=given["unit"], bounds=given["bounds"])
     return problem
@@ -199,8 +218,11 @@ def read_problem(f: h5py.File, problem: Any) -> Any:
 def read_columns(f: h5py.Group) -> dict[str, Column]:
     """Return the columns in their order."""
     found = {}
-    for name in json.loads(f["columns"].attrs["order"]):
-        d = f["columns"][name]
+    group = f["columns"]
+    names = json.loads(group.attrs["order"])
+    stored = json.loads(group.attrs["keys"]) if "keys" in group.attrs else names
+    for name, place in zip(names, stored, strict=True):
+        d = group[place]
         found[name] = Column(name, d.attrs["unit"], d.attrs["role"], frozen(d[()]))
     return found
 
@@ -222,7 +244,7 @@ def read_branch(f: h5py.Group, problem: Any) -> Branch:
         residuals=frozen(f["residuals"][()]),
         special_points=(),
         free={k: tuple(v) for k, v in json.loads(f.attrs["free"]).items()},
-        fixed={k: float(v) for k, v in f["fixed"].attrs.items()},
+        fixed=read_values(f, "fixed"),
         fixed_units=json.loads(f.attrs["fixed_units"]),
         ends=[tuple(e) for e in json.loads(f.attrs["ends"])],
         start=str(f.attrs["start"]),
@@ -294,10 +316,10 @@ def special_from_row(row: Point, **details: Any) -> SpecialPoint:
 def write_csv(branch: Branch, path: str | Path, *, degrees: bool = True) -> Path:
     """Write the columns of a branch with units in the header; angles in degrees on request."""
     extra = list(zip(branch.stability, (int(n) for n in branch.n_unstable), branch.labels, strict=True))
-    return write_columns(branch.columns, path, ("stability", "unstable eigenvalues", "label"), extra, degrees=degrees)
+    return csv_columns(branch.columns, path, ("stability", "unstable eigenvalues", "label"), extra, degrees=degrees)
 
 
-def write_columns(
+def csv_columns(
     columns: Mapping[str, Column],
     path: str | Path,
     more: Sequence[str] = (),
@@ -312,15 +334,6 @@ def write_columns(
     rows = np.column_stack([c.values for c in columns.values()])
     rows[:, turn] = np.degrees(rows[:, turn])
 
-    def write(temporary: Path) -> None:
-        with temporary.open("w", newline="", encoding="utf-8") as f:
-            out = csv.writer(f)
-            out.writerow([*header, *more])
-            for i, row in enumerate(rows):
-                out.writerow([*(_csv_number(v) for v in row), *(extra[i] if extra else ())])
-
-    return write_atomically(path, write)
-
-
-def _csv_number(value: float) -> str:
-    return repr(float(value)) if math.isfinite(value) else ""
+    body = ([*(v if math.isfinite(v) else "" for v in row), *(extra[i] if extra else ())]
+            for i, row in enumerate(rows.tolist()))
+    return write_table(path, [*header, *more], body)

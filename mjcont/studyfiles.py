@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import itertools
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mjcont.collect import units
-from mjcont.storage import write_atomically
+from mjcont.csvfiles import write_table
 
 if TYPE_CHECKING:
     from mjcont.certificates import Certificate
@@ -19,18 +17,6 @@ if TYPE_CHECKING:
     from mjcont.histories import History
     from mjcont.maps import SpecialMap
     from mjcont.margins import BarrierCurve
-
-
-def _write(path: Path, head: Sequence[str], rows: Iterable[Sequence[Any]]) -> Path:
-    text = io.StringIO()
-    out = csv.writer(text, lineterminator="\n")
-    out.writerow(head)
-    out.writerows([repr(float(v)) if isinstance(v, float) else v for v in row] for row in rows)
-
-    def write(to: Path) -> None:
-        to.write_text(text.getvalue(), encoding="utf-8")
-
-    return write_atomically(path, write)
 
 
 def _heads(names: Iterable[str], unit_of: dict[str, str]) -> list[str]:
@@ -47,7 +33,7 @@ def equilibria_csv(found: Equilibria, problem: Any, path: Path) -> Path:
          *(float(p[n]) for n in (*problem.parameters, *problem.observables)), *(float(v) for v in p.state)]
         for p in found
     ]
-    return _write(path, head, rows)
+    return write_table(path, head, rows)
 
 
 def worst_case_csv(found: WorstCase, path: Path) -> Path:
@@ -55,7 +41,7 @@ def worst_case_csv(found: WorstCase, path: Path) -> Path:
     names = list(dict.fromkeys([*found.parameters, found.quantity]))
     last = {**found.parameters, found.quantity: found.value}
     rows = [*found.path, *([last] if not found.path or dict(found.path[-1]) != last else [])]
-    return _write(path, _heads(names, units(found.point.problem)), [[float(r[n]) for n in names] for r in rows])
+    return write_table(path, _heads(names, units(found.point.problem)), [[float(r[n]) for n in names] for r in rows])
 
 
 def map_csv(found: SpecialMap, path: Path) -> Path:
@@ -67,7 +53,7 @@ def map_csv(found: SpecialMap, path: Path) -> Path:
     for node in itertools.product(*(range(len(a)) for a in found.axes.values())):
         at = [float(a[i]) for a, i in zip(found.axes.values(), node, strict=True)]
         rows.append([*at, *(float(c[node]) for c in columns), str(found.messages[node])])
-    return _write(path, head, rows)
+    return write_table(path, head, rows)
 
 
 def certificate_csv(found: Certificate, path: Path) -> Path:
@@ -77,7 +63,7 @@ def certificate_csv(found: Certificate, path: Path) -> Path:
             "time [s]", "verdict", "sentence"]
     rows = [[c.index, c.label, *(float(c.parameters[n]) for n in names), c.stability, c.eigenvalue.real,
              c.eigenvalue.imag, float(c.rate), float(c.time), c.verdict, c.sentence] for c in found]
-    return _write(path, head, rows)
+    return write_table(path, head, rows)
 
 
 def barrier_csv(found: BarrierCurve, path: Path) -> Path:
@@ -85,7 +71,7 @@ def barrier_csv(found: BarrierCurve, path: Path) -> Path:
     head = ["row", *_heads([found.name], {found.name: found.unit}), "energy [J]", "message"]
     rows = [[int(r), float(v), float(e), b.message]
             for r, v, e, b in zip(found.rows, found.values, found.energy, found.barriers, strict=True)]
-    return _write(path, head, rows)
+    return write_table(path, head, rows)
 
 
 def draw_history(history: History, columns: Sequence[str], path: Path) -> Path:

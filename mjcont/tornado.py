@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont import csvfiles
 from mjcont.branch import KIND_NAMES, SpecialPoint, show
 from mjcont.errors import ParameterError
 
@@ -75,25 +74,16 @@ def _signed(value: float, unit: str) -> str:
 
 def write_table(s: Sensitivities, path: str | Path) -> Path:
     """Write sensitivities as CSV, SI and radians, a row a parameter."""
-    from mjcont.storage import write_atomically
-
-    text = io.StringIO()
-    out = csv.writer(text, lineterminator="\n")
     head = ["parameter", "unit", "value", "tolerance"]
     for name in s.quantities:
         unit = s.units[name] or "1"
         head += [f"d {name} [{unit} / unit]", f"elasticity of {name}", f"change of {name} [{unit}]"]
-    out.writerow(head)
+    rows: list[list[Any]] = []
     for i, name in enumerate(s.parameters):
-        row: list[Any] = [name, s.units[name] or "1", repr(s.values[name]), repr(s.tolerances[name])]
+        rows.append([name, s.units[name] or "1", float(s.values[name]), float(s.tolerances[name])])
         for j in range(len(s.quantities)):
-            row += [repr(float(a[i, j])) for a in (s.derivatives, s.elasticities, s.changes)]
-        out.writerow(row)
-
-    def write(to: Path) -> None:
-        to.write_text(text.getvalue(), encoding="utf-8")
-
-    return write_atomically(path, write)
+            rows[-1] += [float(a[i, j]) for a in (s.derivatives, s.elasticities, s.changes)]
+    return csvfiles.write_table(path, head, rows)
 
 
 def draw_tornado(s: Sensitivities, quantity: str, most: int, ax: Any) -> Any:
