@@ -9,6 +9,7 @@ import numpy as np
 
 from mjcont.collect import units as unit_of
 from mjcont.numerics.problem import Array
+from mjcont.pathplots import axis_label
 
 if TYPE_CHECKING:
     from mjcont.maps import SpecialMap
@@ -17,12 +18,6 @@ if TYPE_CHECKING:
 def scaled(values: Array, unit: str) -> Array:
     """Return values as they are shown: radians in degrees."""
     return np.degrees(values) if unit == "rad" else values
-
-
-def axis_label(name: str, unit: str) -> str:
-    """Return a name with its unit as it is shown."""
-    shown = "deg" if unit == "rad" else unit
-    return f"{name} [{shown}]" if shown not in ("", "1") else name
 
 
 def draw_line(found: SpecialMap, quantity: str, ax: Any) -> Any:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.escapes import for_picture
 from mjcont.numerics.problem import Array
 
 if TYPE_CHECKING:
@@ -55,7 +56,8 @@ def _column(path: Any, values: Array, name: str, degrees: bool) -> Array:
 def axis_label(name: str, unit: str, degrees: bool = True) -> str:
     """Return an axis label with its unit."""
     unit = "deg" if degrees and unit == "rad" else unit.replace("*", " ")
-    return f"{name} [{unit}]" if unit not in ("", "1") else name
+    shown = for_picture(name)
+    return f"{shown} [{for_picture(unit)}]" if unit not in ("", "1") else shown
 
 
 def draw_barriers(curve: BarrierCurve, ax: Axes | None = None) -> Axes:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
+from urllib.parse import quote
+
+from mjcont.escapes import for_cell, for_page, for_terminal
 
 if TYPE_CHECKING:
     from mjcont.reproduce import FigureResult, Finding
@@ -37,13 +39,14 @@ def markdown(results: Sequence[FigureResult], versions: Mapping[str, str]) -> st
     title, summary = _heading(results, versions)
     lines = [f"# {title}", "", f"{summary}.", "", INTRODUCTION, ""]
     for r in results:
-        lines += [f"## {r.title}", "", *([r.caption, ""] if r.caption else [])]
+        lines += [f"## {for_cell(r.title)}", "", *([for_terminal(r.caption), ""] if r.caption else [])]
         if r.reason:
-            lines += [f"**Failed**: {r.reason}", ""]
+            lines += [f"**Failed**: {for_cell(r.reason)}", ""]
             continue
-        lines += [f"![{r.label.capitalize()}]({r.image})", "", "| Claim | Computed | |", "|---|---|---|"]
+        lines += [f"![{for_cell(r.label.capitalize())}]({quote(r.image)})", ""]
+        lines += ["| Claim | Computed | |", "|---|---|---|"]
         cells = [(f.claim, f.computed, verdict(f)) for f in r.findings]
-        lines += ["| " + " | ".join(c.replace("|", "\\|") for c in row) + " |" for row in cells] + [""]
+        lines += ["| " + " | ".join(map(for_cell, row)) + " |" for row in cells] + [""]
     return "\n".join(lines)
 
 
@@ -62,19 +65,19 @@ td:last-child { white-space: nowrap; font-weight: 600 }
 
 def as_html(results: Sequence[FigureResult], versions: Mapping[str, str]) -> str:
     """Return the report as a page that stands beside its pictures."""
-    title, summary = (html.escape(t) for t in _heading(results, versions))
-    body = [f"<h1>{title}</h1>", f'<p class="versions">{summary}.</p>', f"<p>{html.escape(INTRODUCTION)}</p>"]
+    title, summary = (for_page(t) for t in _heading(results, versions))
+    body = [f"<h1>{title}</h1>", f'<p class="versions">{summary}.</p>', f"<p>{for_page(INTRODUCTION)}</p>"]
     for r in results:
         anchor = r.image.removesuffix(".png")
-        body += [f'<h2 id="{anchor}">{html.escape(r.title)}</h2>']
-        body += [f"<p>{html.escape(r.caption)}</p>"] if r.caption else []
+        body += [f'<h2 id="{for_page(anchor)}">{for_page(r.title)}</h2>']
+        body += [f"<p>{for_page(r.caption)}</p>"] if r.caption else []
         if r.reason:
-            body += [f'<p class="fails">Failed: {html.escape(r.reason)}</p>']
+            body += [f'<p class="fails">Failed: {for_page(r.reason)}</p>']
             continue
-        body += [f'<img src="{r.image}" alt="{r.label.capitalize()}">', "<table>"]
+        body += [f'<img src="{quote(r.image)}" alt="{for_page(r.label.capitalize())}">', "<table>"]
         body += ["<tr><th>Claim</th><th>Computed</th><th></th></tr>"]
         for f in r.findings:
-            cells = f"<td>{html.escape(f.claim)}</td><td>{html.escape(f.computed)}</td>"
+            cells = f"<td>{for_page(f.claim)}</td><td>{for_page(f.computed)}</td>"
             body += [f'<tr>{cells}<td class="{"holds" if f.holds else "fails"}">{verdict(f)}</td></tr>']
         body += ["</table>"]
     head = f'<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{title}</title>'

@@ -62,6 +62,26 @@ def check_writable(path: str | Path) -> None:
         raise _cannot(path, error) from error
 
 
+def output_folder(path: str | Path) -> Path:
+    """Return a folder, made if it is missing, after trying to write to it and removing what killed processes left.
+
+    Raises
+    ------
+    MjcontError
+        If it cannot be made, or written to.
+    """
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        sweep(folder)
+        with interrupts.held():
+            _remove(*_private_file(folder))
+    except (OSError, ValueError) as error:
+        reason = "it is a file" if folder.is_file() else getattr(error, "strerror", None) or error
+        raise MjcontError(f"cannot write to the output folder '{path}': {reason}") from error
+    return folder
+
+
 def _cannot(path: Path, error: OSError | ValueError) -> MjcontError:
     folder = Path(os.path.realpath(path)).parent if "\0" not in str(path) else path.parent
     if isinstance(error, FileNotFoundError) and not folder.is_dir():

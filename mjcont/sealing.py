@@ -36,6 +36,11 @@ class Damaged(Exception):
     """A file that is not as it was written; the sentence says where."""
 
 
+def digest(data: Any) -> str:
+    """Return a hash of plain data."""
+    return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
+
+
 def sealed_file(fill: Callable[[h5py.File], None]) -> bytes:
     """Return the bytes of a file that `fill` puts groups and datasets into."""
     with h5py.File("image", "w", driver="core", backing_store=False) as f:

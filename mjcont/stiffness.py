@@ -10,6 +10,7 @@ import numpy as np
 
 from mjcont.branch import Branch, SpecialPoint, show
 from mjcont.errors import MjcontError
+from mjcont.escapes import for_picture
 from mjcont.loci import continue_special
 from mjcont.numerics.problem import Array
 
@@ -57,6 +58,7 @@ class StiffnessStudy:
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the deviation against the stiffness, both logarithmic, and return the axes."""
+        from mjcont.pathplots import axis_label
         from mjcont.plotting import new_figure
 
         axes = new_figure()[1] if ax is None else ax
@@ -65,8 +67,8 @@ class StiffnessStudy:
         axes.axhline(self.tol, color="0.6", linestyle="--", linewidth=0.8)
         if self.converged_from is not None:
             axes.axvline(self.converged_from, color="0.6", linestyle=":", linewidth=1.0)
-        axes.set_xlabel(f"{self.parameter} [{self.locus.unit(self.parameter)}]")
-        axes.set_ylabel(f"relative deviation of {self.quantity} from its limit")
+        axes.set_xlabel(axis_label(self.parameter, self.locus.unit(self.parameter), degrees=False))
+        axes.set_ylabel(f"relative deviation of {for_picture(self.quantity)} from its limit")
         return axes
 
 

@@ -5,7 +5,6 @@ docs/studies.md describes the files, `plans` reads and checks them, `studyruns` 
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from mjcont.continuation import continue_equilibria
 from mjcont.errors import MjcontError
 from mjcont.plans import BranchPlan, PlotPlan, Study, Task, check_study, load_study
 from mjcont.progress import Reporter
+from mjcont.saving import output_folder
 from mjcont.studyruns import Running, compute, curves_of, interrupted, start_of, store_curve, task_line
 
 __all__ = [
@@ -78,19 +78,6 @@ def interruption(study: Study, results: Sequence[Any], out: str | Path) -> str:
     stored = Path(out) / f"{plan.name}.h5"
     held = f"{stored} holds {points}" if stored.is_file() else f"'{plan.name}' has {points}"
     return f"interrupted: {held}" + (f"; {skipped} more not computed" if skipped else "")
-
-
-def output_folder(path: str | Path) -> Path:
-    """Return a folder, made if it is missing, after trying to write to it."""
-    folder = Path(path)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        reason = "it is a file" if folder.is_file() else error.strerror
-        raise MjcontError(f"cannot write to the output folder '{path}': {reason}") from error
-    return folder
 
 
 def _compute(study: Study, plan: BranchPlan | Task, at: Running) -> tuple[Any, list[Path]]:

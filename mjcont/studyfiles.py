@@ -78,7 +78,8 @@ def draw_history(history: History, columns: Sequence[str], path: Path) -> Path:
     """Draw columns of a history against time, one below the other."""
     import numpy as np
 
-    from mjcont.mapplots import axis_label, scaled
+    from mjcont.mapplots import scaled
+    from mjcont.pathplots import axis_label
     from mjcont.plotting import COLORS, new_figure, save_figure
 
     figure, axes = new_figure(len(columns), 1, (5.2, 0.9 + 1.7 * len(columns)), sharex=True, squeeze=False)

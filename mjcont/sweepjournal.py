@@ -28,11 +28,6 @@ _TYPES = {"case": int, "from": int, "status": str, "message": str, "values": dic
 _PARTS = {"model": "model", "design": "design", "points": "points, parameters or quantities", "versions": "versions"}
 
 
-def digest(data: Any) -> str:
-    """Return a hash of plain data."""
-    return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
-
-
 def sealed_line(record: Mapping[str, Any]) -> bytes:
     """Return a record as a line with its digest."""
     text = json.dumps(record).encode()

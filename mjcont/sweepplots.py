@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mjcont.branch import Column
-from mjcont.mapplots import axis_label, scaled
+from mjcont.mapplots import scaled
+from mjcont.pathplots import axis_label
 
 if TYPE_CHECKING:
     from mjcont.sweeptable import SweepTable

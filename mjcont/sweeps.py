@@ -20,8 +20,9 @@ from mjcont.errors import MjcontError, ParameterError, StudyError
 from mjcont.numerics.problem import Array
 from mjcont.numerics.spanning import heights, spanning_tree
 from mjcont.plans import Study
+from mjcont.saving import output_folder
+from mjcont.sealing import digest
 from mjcont.storage import frozen
-from mjcont.study import output_folder
 from mjcont.sweepcluster import make_crew
 from mjcont.sweepengine import Run, Tree
 from mjcont.sweepjobs import (
@@ -32,7 +33,7 @@ from mjcont.sweepjobs import (
     trace_points,
     write_job,
 )
-from mjcont.sweepjournal import Journal, digest
+from mjcont.sweepjournal import Journal
 from mjcont.sweepplans import SweepPlan
 from mjcont.sweeptable import SweepTable
 
