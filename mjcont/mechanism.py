@@ -14,16 +14,14 @@ import copy
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
-from weakref import WeakSet
 
 import mujoco
 import numpy as np
 
 from mjcont import features, loading, rigid
-from mjcont.derivatives import Derivatives
 from mjcont.errors import ParameterError, unknown_name
-from mjcont.evaluation import Evaluator
 from mjcont.geometry import Geometry, refuse_overlap
+from mjcont.machinery import Machined, Shared
 from mjcont.mjcf import exact_text
 from mjcont.numerics.differences import Stencil
 from mjcont.numerics.problem import Array, Linearization, Pencil, Values
@@ -31,13 +29,11 @@ from mjcont.observables import model_observables
 from mjcont.parameters import Declaration, collect_parameters, declared_parameter
 from mjcont.paths import bush_names
 from mjcont.quantities import Parameter
-from mjcont.readings import Observed, Readings
+from mjcont.readings import Observed
 from mjcont.writer import FieldWriter
 
-_OWNED = ("_loaded", "_model", "_writer", "_readings", "_evaluator", "nonsmooth", "_derivatives")
 
-
-class Mechanism(Observed):
+class Mechanism(Machined, Observed):
     """A MuJoCo model as an equilibrium problem f(q, p) = 0 with named parameters and observables.
 
     Use `Mechanism.from_xml`, `from_spec` or `from_model` to make one.
@@ -90,21 +86,9 @@ class Mechanism(Observed):
         self.keyframes = loading.keyframes(model)
         self.constrained, self._passive = loading.is_constrained(model), features.passive(model)
         self._held: tuple[str, ...] = ()
-        self._kin: WeakSet[Mechanism] = WeakSet((self,))  # this and its copies with held modes: one set of models
-        self._own(self._geometry.with_layout(model, self.parameters))
-
-    def _own(self, model: mujoco.MjModel, evaluations: int = 0) -> None:
-        """Take a model: one copy for residuals, one for observables, one as loaded."""
-        self._loaded, self._model = loading.copy_model(model), loading.evaluation_copy(model)
-        self._writer = self.writer(self._model)
-        self._readings = Readings(model, self.parameters, self.writer(model), self.constrained)
-        self._evaluator = Evaluator(self._model, self._writer, self.constrained, evaluations)
-        self.nonsmooth = self._evaluator.nonsmooth
-        self._derivatives = Derivatives(
-            self._evaluator, self._writer, self.parameters, self.state_scale, self.retract_each
-        )
-        for other in self._kin:
-            other.__dict__.update({name: self.__dict__[name] for name in _OWNED})
+        self._friction = friction
+        self._shared = Shared()
+        self._shared.own(self, self._geometry.with_layout(model, self.parameters))
 
     # -- making one ----------------------------------------------------------------------------------------
 
@@ -158,22 +142,24 @@ class Mechanism(Observed):
         ParameterError
             If the name is in use, a path matches nothing, or its targets disagree with each other in the loaded model.
         """
-        if name in self.parameters:
-            raise ParameterError(f"parameter '{name}' is declared twice")
-        given = Declaration(name, unit, bounds, tuple(paths), function, value)
-        parameter = declared_parameter(self._model_as_loaded(), self._geometry, given)
-        self.parameters[name] = parameter
-        self.declared[name] = given.record(parameter)
-        if parameter.kind == "spec" and self._loaded.body_simple.any():
-            self._own(self._geometry.with_layout(self._loaded, self.parameters), self.evaluations)
-        return parameter
+        with self._shared.lock:
+            if name in self.parameters:
+                raise ParameterError(f"parameter '{name}' is declared twice")
+            given = Declaration(name, unit, bounds, tuple(paths), function, value)
+            parameter = declared_parameter(self._model_as_loaded(), self._geometry, given)
+            self.parameters[name] = parameter
+            self.declared[name] = given.record(parameter)
+            if parameter.kind == "spec" and self._loaded.body_simple.any():
+                self._shared.own(self, self._geometry.with_layout(self._loaded, self.parameters), self.evaluations)
+            return parameter
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`; a path such as `joint:hip.stiffness` is one, too."""
-        if name not in self.parameters:
-            if ":" not in name:
-                raise unknown_name("parameter", name, self.parameters)
-            self.declare(name, name)
+        if name not in self.parameters and ":" not in name:
+            raise unknown_name("parameter", name, self.parameters)
+        with self._shared.lock:
+            if name not in self.parameters:
+                self.declare(name, name)
         return self.parameters[name]
 
     def values(self, given: Values | None = None) -> dict[str, float]:
@@ -189,7 +175,7 @@ class Mechanism(Observed):
         given = given or {}
         for name, value in given.items():
             self.parameter(name).check(value)
-        merged = {name: p.value for name, p in self.parameters.items()}
+        merged = {name: p.value for name, p in list(self.parameters.items())}
         merged.update({name: float(v) for name, v in given.items()})
         if any(self.parameters[name].kind == "spec" for name in given):
             self._geometry.model(self.parameters, merged)
@@ -299,7 +285,6 @@ class Mechanism(Observed):
         """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""
         held = copy.copy(self)
         held._held = tuple(modes)
-        self._kin.add(held)
         return held
 
     def admissible(self, x: Array, step: Array) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import threading
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ import mujoco
 import numpy as np
 
 _DIGITS = 17
+_PRECISION = threading.Lock()  # the number of digits is one for all threads
 
 Element = ElementTree.Element  # a comment is one whose tag is a function
 
@@ -24,12 +26,13 @@ def exact_text(spec: mujoco.MjSpec) -> str:
     spec.compile()
     if setter is None or getter is None:
         return str(spec.to_xml())
-    before = getter()
-    setter(ctypes.c_int(_DIGITS))
-    try:
-        return str(spec.to_xml())
-    finally:
-        setter(ctypes.c_int(before))
+    with _PRECISION:
+        before = getter()
+        setter(ctypes.c_int(_DIGITS))
+        try:
+            return str(spec.to_xml())
+        finally:
+            setter(ctypes.c_int(before))
 
 
 class Document:

@@ -1,4 +1,4 @@
-"""Processes that work for this one: started so that an interrupt hits neither too early, and ended with their parent."""
+"""Processes that work for this one: an interrupt hits them not too early, and they end with their parent."""
 
 from __future__ import annotations
 

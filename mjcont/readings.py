@@ -85,7 +85,10 @@ class Observed:
     """
 
     observables: dict[str, Observable]
-    _readings: Readings
+
+    @property
+    def _readings(self) -> Readings:
+        raise NotImplementedError
 
     def observe(self, name: str, function: Callable[[Any, Any], float], unit: str = "") -> None:
         """Add an observable computed by `function(model, data)` from MuJoCo's model and data."""

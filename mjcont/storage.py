@@ -36,6 +36,7 @@ from mjcont.errors import MjcontError, ModelWarning, ResultFileError, ResultWarn
 from mjcont.hdf5names import key
 from mjcont.saving import write_file
 from mjcont.sealing import Damaged, opened, refuse_broken_seal, sealed_file
+from mjcont.travel import declare_again
 
 FORMAT_VERSION = 2
 # What h5py, json and our own reading raise on files with parts missing or overwritten.
@@ -205,13 +206,14 @@ def read_problem(f: h5py.File, problem: Any) -> Any:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ModelWarning)  # said when the result was computed
             problem = Mechanism.from_xml(f["model"].asstr()[()])
-        for name, given in json.loads(f.attrs["declared"]).items():
+        declared = json.loads(f.attrs["declared"])
+        for name, given in declared.items():
             if "function" in given:
                 raise _Unfit(
                     f"has the parameter '{name}', the Python function {given['function']}, which a file cannot carry: "
                     "declare it on a Mechanism again and load with problem=mechanism"
                 )
-            problem.declare(name, *given["paths"], unit=given["unit"], bounds=given["bounds"])
+        declare_again(problem, declared)
     return problem
 
 

@@ -26,6 +26,7 @@ from mjcont.errors import MjcontError, ParameterError
 from mjcont.loci import continue_special
 from mjcont.mechanism import Mechanism
 from mjcont.storage import special_from_row
+from mjcont.travel import declare_again
 
 METHODS = ("follow", "trace")
 NOMINAL = -1
@@ -98,9 +99,7 @@ def build(model: Mapping[str, Any]) -> Mechanism:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # said when the sweep was set up
         mechanism = Mechanism.from_xml(model["mjcf"], friction=model["friction"])
-    for name, given in model["declared"].items():
-        if name not in mechanism.parameters:
-            mechanism.declare(name, *given["paths"], unit=given["unit"], bounds=tuple(given["bounds"]))
+    declare_again(mechanism, model["declared"])
     return mechanism
 
 

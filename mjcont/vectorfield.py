@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -64,7 +65,7 @@ class VectorField:
         self.n = len(self.u0)
         self.function, self.jacobian = function, jacobian
         self.state_scale = np.ones(self.n) if scale is None else np.array(scale, dtype=float)
-        self.evaluations = 0
+        self._counts: dict[int, int] = {}  # by thread: what one computes costs what that one evaluates
         units, bounds = units or {}, bounds or {}
         self.parameters = {
             k: Parameter(k, units.get(k, ""), float(v), bounds.get(k, default_bounds(float(v))), "field")
@@ -102,11 +103,17 @@ class VectorField:
             raise ParameterError(f"state must have shape ({self.n},), got {x.shape}")
         return x
 
+    @property
+    def evaluations(self) -> int:
+        """Evaluations of the function so far, by this thread."""
+        return self._counts.get(threading.get_ident(), 0)
+
     # -- the problem -----------------------------------------------------------------------------------------
 
     def residual(self, x: Array, values: Values) -> Array:
         """Return f, (n,); NaN where the function overflows or leaves its domain."""
-        self.evaluations += 1
+        thread = threading.get_ident()
+        self._counts[thread] = self._counts.get(thread, 0) + 1
         try:
             return np.array(self.function(x, values), dtype=float).reshape(self.n)
         except (ArithmeticError, ValueError) as error:
