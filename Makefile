@@ -20,7 +20,7 @@ STAMP_TEXT = printf '%s\n' "$(CURDIR)" "$(PYTHON)"
 FRESH := $(shell $(BIN)/python -c 'import pip' 2>/dev/null && $(STAMP_TEXT) | cmp -s - $(STAMP) && echo yes)
 
 .DEFAULT_GOAL := help
-.PHONY: help env reproduce reproduce-fast test test-long thirdparty test-thirdparty bench clean FORCE
+.PHONY: help env reproduce reproduce-fast test test-long test-faults thirdparty test-thirdparty bench clean FORCE
 
 help: ## list these targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 # \2/p' $(MAKEFILE_LIST) | awk -F' # ' '{ printf "%-23s %s\n", $$1, $$2 }'
@@ -40,6 +40,9 @@ test: env ## lint, types and tests
 
 test-long: env ## the tests that take minutes
 	$(BIN)/pytest -q -n auto -m "long and not thirdparty"
+
+test-faults: env ## damaged files, full disks, kills: whole campaigns (a tenth is in make test); SEED=0
+	cd tests && ../$(BIN)/python -m faults --seed $(or $(SEED),0)
 
 thirdparty: env ## download models from other packages, in .thirdparty
 	@$(BIN)/python tests/thirdparty.py

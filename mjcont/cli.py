@@ -64,11 +64,13 @@ def _inspect(args: argparse.Namespace) -> int:
     if _is_result(args.model):
         say(str(_load(args.model)))
     else:
+        from mjcont.loading import files_read
         from mjcont.mechanism import Mechanism
 
         with _warnings_as_lines():
             mechanism = Mechanism.from_xml(args.model, friction=args.friction or FRICTION[0])
         say(str(mechanism))
+        say("\n".join(["", "files that this model reads", *(f"  {name}" for name in files_read(args.model))]))
     return OK
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from mjcont import assets
+from mjcont import assets, modelfiles
 from mjcont.equalities import describe_equalities
 from mjcont.errors import ModelError, ParameterError, unknown_name
 from mjcont.features import touching
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from mjcont.mechanism import Mechanism
 
 _OTHER_FILES = re.compile(r"<(include|model)\b")
+_NEEDS_FILES = re.compile(r"\bfile\w*\s*=")
+_REFUSED = (ValueError, RuntimeError, MemoryError, mujoco.FatalError)  # what MuJoCo raises on models
 _JOINT = mujoco.mjtJoint
 _DISABLE = mujoco.mjtDisableBit
 
@@ -46,6 +48,7 @@ def shipped_models() -> list[str]:
 def read_source(source: str | Path) -> tuple[str, Path | None]:
     """Return the XML text of a path, of a shipped model's name, or of text itself, and its folder."""
     if isinstance(source, str) and source.lstrip().startswith("<"):
+        modelfiles.look_at(source, None, "XML text")
         return source, None
     path = Path(source)
     if not path.is_file() and path.parent == Path() and not path.suffix:
@@ -55,9 +58,18 @@ def read_source(source: str | Path) -> tuple[str, Path | None]:
         what = "is a folder, not a file" if Path(source).is_dir() else "no such file"
         raise ModelError(f"model '{source}': {what}. Models that ship with mjcont: {shipped}.")
     try:
-        return path.read_text(encoding="utf-8"), path.resolve().parent
+        text, folder = path.read_text(encoding="utf-8"), path.resolve().parent
     except (UnicodeDecodeError, OSError) as error:
         raise ModelError(f"model '{source}' cannot be read as text: {error}") from error
+    modelfiles.look_at(text, folder, str(path))
+    try:
+        str(folder).encode()
+    except UnicodeEncodeError as error:
+        if _NEEDS_FILES.search(text):
+            raise ModelError(f"model '{source}': MuJoCo reads further files in folders whose names are UTF-8 only: "
+                             "move the model") from error
+        return text, None
+    return text, folder
 
 
 def parse(text: str, folder: Path | None, label: str) -> mujoco.MjSpec:
@@ -66,7 +78,7 @@ def parse(text: str, folder: Path | None, label: str) -> mujoco.MjSpec:
         if folder is not None and _OTHER_FILES.search(text):
             return mujoco.MjSpec.from_file(label)
         spec = mujoco.MjSpec.from_string(text)
-    except (ValueError, mujoco.FatalError) as error:
+    except _REFUSED as error:
         raise ModelError(f"model {label}: MuJoCo rejects it: {_one_line(error)}") from error
     if folder is not None:
         spec.modelfiledir = str(folder)
@@ -77,8 +89,21 @@ def compile_spec(spec: mujoco.MjSpec) -> mujoco.MjModel:
     """Compile a spec, turning MuJoCo's error into ours."""
     try:
         return spec.compile()
-    except (ValueError, mujoco.FatalError) as error:
+    except _REFUSED as error:
         raise ModelError(f"model '{spec.modelname}': MuJoCo cannot compile it: {_one_line(error)}") from error
+
+
+def files_read(source: str | Path) -> list[str]:
+    """Return the files that a source reads, itself first, each with what is wrong with it, if anything."""
+    text, folder = read_source(source)
+    if folder is None:
+        return []
+    path = Path(source) if Path(source).is_file() else models_folder() / f"{source}.xml"
+    spec = parse(text, folder, str(path))
+    included = modelfiles.look_at(text, folder, str(path)) if _OTHER_FILES.search(text) else ()
+    files = dict.fromkeys([path.resolve(), *included, *assets.files(spec, folder)])
+    shown = [f.relative_to(folder) if f.is_relative_to(folder) else f for f in files]
+    return [str(name) + ("" if file.is_file() else ": not there") for name, file in zip(shown, files, strict=True)]
 
 
 def load(source: str | Path) -> tuple[mujoco.MjModel, str, tuple[str, ...], Geometry]:

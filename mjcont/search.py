@@ -94,6 +94,8 @@ def find_equilibria(
     for name, number in (("starts", starts), ("max_solutions", max_solutions)):
         if number < 1:
             raise ParameterError(f"{name} must be at least 1, got {number}")
+    if not max_seconds >= 0:
+        raise ParameterError(f"max_seconds must be a number of seconds, got {max_seconds}")
     search = _prepare(problem, _parameter_values(problem, params), region)
     most = 25 * starts if max_starts is None else max_starts
     limits = _Limits(

@@ -161,8 +161,8 @@ def load(path: str | Path, problem: Any = None) -> Any:
         try:
             found = _read(f, problem, sealed)
         except (*_DAMAGED, Damaged, _Unfit) as error:
-            what = error if isinstance(error, _Unfit) else f"is incomplete or damaged: {error}"
-            raise ResultFileError(f"result file '{path}' {what}") from error
+            what = error if isinstance(error, _Unfit) else f" is incomplete or damaged: {error}"
+            raise ResultFileError(f"result file '{path}'{what}") from error
     if not sealed:
         warnings.warn(
             f"result file '{path}' has no checksums (an older mjcont wrote it): damaged numbers would not be noticed",
@@ -177,10 +177,10 @@ class _Unfit(Exception):
 
 def _read(f: h5py.File, problem: Any, sealed: bool) -> Any:
     if f.attrs.get("format") != "mjcont":
-        raise _Unfit("was not written by mjcont")
+        raise _Unfit(" was not written by mjcont")
     version = int(f.attrs["format_version"])
     if version > FORMAT_VERSION:
-        raise _Unfit(f"has format version {version}; this mjcont reads up to {FORMAT_VERSION}: upgrade mjcont")
+        raise _Unfit(f" has format version {version}; this mjcont reads up to {FORMAT_VERSION}: upgrade mjcont")
     if not sealed:
         refuse_broken_seal(f)
     if f.attrs["kind"] == "history":
@@ -210,7 +210,7 @@ def read_problem(f: h5py.File, problem: Any) -> Any:
         for name, given in declared.items():
             if "function" in given:
                 raise _Unfit(
-                    f"has the parameter '{name}', the Python function {given['function']}, which a file cannot carry: "
+                    f": its parameter '{name}' is the Python function {given['function']}, which a file cannot carry: "
                     "declare it on a Mechanism again and load with problem=mechanism"
                 )
         declare_again(problem, declared)
