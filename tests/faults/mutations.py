@@ -30,7 +30,6 @@ parameter = "F"
 bounds = [-50, 50]
 start = { F = 50, k_j = 1000 }
 csv = true
-settings = { max_seconds = 5 }
 [[loci]]
 name = "folds"
 point = "equilibria:LP1"
@@ -204,9 +203,10 @@ def mutate_journals(trials: int, seed: int, folder: Path) -> Count:
 def mutate_studies(trials: int, seed: int, folder: Path) -> Count:
     """Change a study, then check it and run what is left."""
     count, random, reader = Count("studies", seed), np.random.default_rng(seed), Reader()
+    text = STUDY.replace("csv = true", "csv = true\nsettings = { max_seconds = 5 }").encode()
     for trial in range(trials):
         path = folder / "changed.toml"
-        path.write_bytes(changed_text(STUDY.encode(), random))
+        path.write_bytes(changed_text(text, random))
         judge(count, trial, reader.ask("study", path, str(folder / "out")), path, None)
     reader.close()
     return count
