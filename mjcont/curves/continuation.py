@@ -8,8 +8,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from mjcont.curves.collect import Progress, collect, make_point, run_directions, special_point
-from mjcont.curves.walkers import equilibrium_walker, monitor_of, point_stop
+from mjcont.curves.collect import Progress, collect, make_point, mark_of, run_directions
+from mjcont.curves.walkers import Zeros, equilibrium_walker, monitor_of, point_stop, zero_values
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import LARGEST_ERROR, Corrected, Start, find_start, solve
@@ -26,7 +26,6 @@ from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint, show
-from mjcont.results.quantities import finite
 
 M = TypeVar("M", bound=Model)
 
@@ -103,7 +102,7 @@ def continue_equilibria(
     keyframe: str | None = None,
     state: Any = None,
     direction: int | None = None,
-    zeros: Mapping[str, float] | None = None,
+    zeros: Zeros | None = None,
     limits: Mapping[str, tuple[float, float]] | None = None,
     stop: Callable[[Point], str | None] | None = None,
     progress: Progress | None = None,
@@ -124,8 +123,8 @@ def continue_equilibria(
         Where to look for the first equilibrium; default the start point's state, or qpos0 (u0).
     direction : {None, +1, -1}
         Both directions from the start, or only that in which the parameter first grows or falls.
-    zeros : dict of column to value, optional
-        Observables whose passing of a value is located and labelled UZ.
+    zeros : dict of column to value, or to several values, optional
+        Columns whose passing of a value is located and labelled UZ.
     limits : mapping of column to (low, high), optional
         The curve ends at the first point at which an observable leaves its range.
     stop : callable, optional
@@ -163,7 +162,7 @@ def iterate_equilibria(
     keyframe: str | None = None,
     state: Any = None,
     direction: int = 1,
-    zeros: Mapping[str, float] | None = None,
+    zeros: Zeros | None = None,
     limits: Mapping[str, tuple[float, float]] | None = None,
     **options: Any,
 ) -> Iterator[Point]:
@@ -187,7 +186,7 @@ def iterate_equilibria(
             yield make_point(model_of(system.problem), item.x, system.values(item.y))
         elif isinstance(item, Located):
             row = make_point(model_of(system.problem), item.point.x, system.values(item.point.y), item.kind)
-            yield special_point(row, item, "", 0, {p.name: (p.low, p.high) for p in system.free}, "equilibria")
+            yield mark_of(item).on(row, {p.name: (p.low, p.high) for p in system.free}, "equilibria")
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,7 +206,7 @@ def _prepare(
     start: Mapping[str, float] | Point | None,
     keyframe: str | None,
     state: Any,
-    zeros: Mapping[str, float] | None,
+    zeros: Zeros | None,
     limits: Mapping[str, tuple[float, float]] | None,
     stop: Callable[[Point], str | None] | None,
     options: Mapping[str, Any],
@@ -224,8 +223,7 @@ def _prepare(
     for name in (*(zeros or {}), *(limits or {})):
         if name not in problem.parameters:
             problem.observable(name)
-    for name, value in (zeros or {}).items():
-        finite(f"zeros: the value of {name}", value)
+    zero_values(zeros)
     for name, ends in (limits or {}).items():
         check_limits(name, ends)
     problem, notes = hold_rigid_modes(problem, x, values)

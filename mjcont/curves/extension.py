@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -28,7 +29,7 @@ from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Trace, Walker, trace
 from mjcont.results.branch import Branch
 from mjcont.results.model import check_bounds, model_of
-from mjcont.results.points import SpecialPoint
+from mjcont.results.points import Mark
 
 _ENDS = ("first", "last")
 _SAME = 1e-4
@@ -69,10 +70,7 @@ def extend(
         segment = _segment(result, end, free, settings, progress)
         if segment is not None:
             result = _join(result, segment, end)
-    result = replace(result, free={p.name: (p.low, p.high) for p in free})
-    points = _relabelled(result, [(p, p.index) for p in result.special_points])
-    object.__setattr__(result, "special_points", tuple(points))
-    return result
+    return replace(result, free={p.name: (p.low, p.high) for p in free})
 
 
 def _own_options(branch: Branch) -> dict[str, Any]:
@@ -204,41 +202,31 @@ def _has(branch: Branch, system: System, e: Located) -> bool:
 def _join(branch: Branch, segment: Branch, end: str) -> Branch:
     """Return one branch from a branch and the segment at one of its ends, relabelled."""
     front, back = (segment, branch) if end == "first" else (branch, segment)
-    width = max(branch.eigenvalues.shape[1], segment.eigenvalues.shape[1])
     ends = list(branch.ends) if len(branch.ends) == 2 else [*branch.ends, *branch.ends]
     ends[0 if end == "first" else 1] = segment.ends[0]
-    joined = replace(
+    return replace(
         branch,
         columns={
             n: replace(c, values=np.concatenate([front.columns[n].values, back.columns[n].values]))
             for n, c in branch.columns.items()
         },
         states=np.concatenate([front.states, back.states]),
-        eigenvalues=np.concatenate([_padded(front.eigenvalues, width), _padded(back.eigenvalues, width)]),
+        spectra=front.spectra.followed_by(back.spectra),
         stability=np.concatenate([front.stability, back.stability]),
         n_unstable=np.concatenate([front.n_unstable, back.n_unstable]),
         residuals=np.concatenate([front.residuals, back.residuals]),
-        special_points=(),
+        marks=_relabelled([*front.marks, *(replace(m, index=m.index + len(front)) for m in back.marks)]),
         ends=ends,
         start_index=branch.start_index + (len(segment) if end == "first" else 0),
         neutral_saddles=[*front.neutral_saddles, *back.neutral_saddles],
         certificate=None,  # its rows have moved
     )
-    points = [(p, p.index) for p in front.special_points]
-    points += [(p, p.index + len(front)) for p in back.special_points]
-    object.__setattr__(joined, "special_points", tuple(_relabelled(joined, points)))
-    return joined
 
 
-def _padded(eigenvalues: Array, width: int) -> Array:
-    fill = np.full((len(eigenvalues), width - eigenvalues.shape[1]), complex(np.nan, np.nan))
-    return np.hstack([eigenvalues, fill])
-
-
-def _relabelled(branch: Branch, points: Sequence[tuple[SpecialPoint, int]]) -> list[SpecialPoint]:
-    counts: dict[str, int] = {}
+def _relabelled(marks: Sequence[Mark]) -> list[Mark]:
+    counts: Counter[str] = Counter()
     found = []
-    for p, index in points:
-        counts[p.kind] = counts.get(p.kind, 0) + 1
-        found.append(replace(p, label=f"{p.kind}{counts[p.kind]}", index=index, free=branch.free))
+    for m in marks:
+        counts[m.kind] += 1
+        found.append(replace(m, label=f"{m.kind}{counts[m.kind]}"))
     return found

@@ -10,14 +10,13 @@ import numpy as np
 
 from mjcont.curves.collect import Progress, collect, run_directions
 from mjcont.curves.continuation import check_direction, hold_rigid_modes
-from mjcont.curves.walkers import monitor_of
+from mjcont.curves.walkers import Zeros, zero_detectors
 from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Detector
 from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of
-from mjcont.numerics.points.on_equilibria import zero_detector
 from mjcont.numerics.points.on_loci import fold_locus_detectors, hopf_locus_detectors, unfolding_stop
 from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
@@ -36,7 +35,7 @@ def continue_special(
     *,
     direction: int | None = None,
     end_at: Sequence[str] | None = None,
-    zeros: Mapping[str, float] | None = None,
+    zeros: Zeros | None = None,
     lyapunov: bool = True,
     progress: Progress | None = None,
     **options: Any,
@@ -55,7 +54,7 @@ def continue_special(
     direction : {None, +1, -1}
         Both directions, or that in which `parameter` first grows or falls.
     end_at : kinds of points that end the locus; default BT on a Hopf locus (beyond it lie neutral saddles).
-    zeros : columns whose passing of a value is located and labelled UZ.
+    zeros : columns whose passing of a value, or of several, is located and labelled UZ.
     lyapunov : whether l1 is computed along a Hopf locus (needed for GH).
 
     Returns
@@ -166,7 +165,7 @@ def locus_system(point: SpecialPoint, kind: str, free: Sequence[Free]) -> System
 
 
 def locus_detectors(
-    kind: str, system: System, settings: Settings, lyapunov: bool, zeros: Mapping[str, float]
+    kind: str, system: System, settings: Settings, lyapunov: bool, zeros: Zeros
 ) -> list[Detector]:
     """Return the detectors of a locus of special points of a kind."""
     found: list[Detector] = []
@@ -174,9 +173,6 @@ def locus_detectors(
         found += fold_locus_detectors(system, system.conditions[0], settings)  # type: ignore[arg-type]
     elif kind == "HB":
         found += hopf_locus_detectors(system, system.conditions[0], settings, lyapunov=lyapunov)  # type: ignore[arg-type]
-    for name, value in zeros.items():
-        monitor = monitor_of(model_of(system.problem), name, value)
-        found.append(zero_detector(system, monitor, f"{name} = {value:g}", settings))
-    return found
+    return [*found, *zero_detectors(system, settings, zeros)]
 
 

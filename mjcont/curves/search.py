@@ -93,8 +93,6 @@ def find_equilibria(
     for name, number in (("starts", starts), ("max_solutions", max_solutions)):
         if number < 1:
             raise ParameterError(f"{name} must be at least 1, got {number}")
-    if not max_seconds >= 0:
-        raise ParameterError(f"max_seconds must be a number of seconds, got {max_seconds}")
     search = _prepare(problem, _parameter_values(problem, params), region)
     most, spent = 25 * starts if max_starts is None else max_starts, search.problem.evaluations
     limits = _Limits(max_solutions, most, max_evaluations, max_seconds, spent, time.monotonic())
@@ -161,6 +159,11 @@ class _Limits:
     seconds: float
     evaluations_before: int
     began: float
+
+    def __post_init__(self) -> None:
+        """Refuse a time that is none."""
+        if not self.seconds >= 0:
+            raise ParameterError(f"max_seconds must be a number of seconds, got {self.seconds}")
 
     def reached(self, search: _Search) -> str:
         """Return a sentence if a limit is reached, else an empty string."""

@@ -140,7 +140,7 @@ def _of_branch(branch: Branch, x: str, y: str) -> Track:
 def _of_path(path: LoadPath, x: str, y: str) -> Track:
     """Return the rows of a path with the motions of its jumps between them."""
     xs, ys, states = path[x], path[y], path.states
-    values = [s.branch.row(int(i)).parameters for s in path.segments for i in s.rows()]
+    values = [s.branch.parameters_at(int(i)) for s in path.segments for i in s.rows()]
     notes, clock = [""] * len(path), _arclength(xs, ys, xs, ys)
     # from the last row on, so that those before keep their numbers
     for jump in sorted(path.jumps, key=lambda j: -j.index):

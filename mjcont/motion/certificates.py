@@ -136,8 +136,8 @@ def _rows(branch: Branch, n: int, given: Sequence[int] | None) -> Sequence[int]:
 
 
 def _critical(branch: Branch, row: int) -> complex:
-    eigenvalues = branch.eigenvalues[row]
-    return complex(eigenvalues[np.nanargmax(eigenvalues.real)])
+    eigenvalues = branch.spectra.row(row)
+    return complex(eigenvalues[np.argmax(eigenvalues.real)])
 
 
 def _check(branch: Branch, row: int, rate: float, time: float, verdict: str, sentence: str) -> Check:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 from mjcont.errors import unknown_name
@@ -118,16 +118,20 @@ class Column:
     values: Array
 
 
-def special_from_row(row: Point, **details: Any) -> SpecialPoint:
-    """Return a special point from its row of a branch and what is known beside it."""
-    return SpecialPoint(
-        row.parameters,
-        row.observables,
-        row.state,
-        row.eigenvalues,
-        row.stability,
-        row.n_unstable,
-        row.problem,
-        row.units,
-        **details,
-    )
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """What makes a row of a branch a special point; the attributes are those of `SpecialPoint`."""
+
+    kind: str
+    label: str
+    index: int
+    tolerance: float
+    converged: bool = True
+    coefficients: Mapping[str, Any] = field(default_factory=dict)
+    vectors: Mapping[str, Array] = field(default_factory=dict, repr=False)
+    note: str = ""
+
+    def on(self, row: Point, free: Mapping[str, tuple[float, float]], curve: str) -> SpecialPoint:
+        """Return the special point that a row is, on a kind of curve in parameters that are free."""
+        seen, own = ({f.name: getattr(x, f.name) for f in fields(x)} for x in (row, self))
+        return SpecialPoint(**seen, **own, free=free, curve=curve)

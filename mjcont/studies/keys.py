@@ -343,17 +343,19 @@ def columns(table: Table, key: str, context: Context) -> tuple[str, ...]:
     return names
 
 
-def zeros(table: Table, key: str, context: Context) -> dict[str, float]:
-    """Read observables, or the table's own parameter, with values."""
+def zeros(table: Table, key: str, context: Context) -> dict[str, float | tuple[float, ...]]:
+    """Read observables, or the table's own parameter, each with a value or several."""
     inner, unit_of = table.table(key), units(context.mechanism)
     own = table.data.get("parameter")
     valid = [*context.mechanism.observables, *([own] if isinstance(own, str) and own in unit_of else [])]
-    found = {}
-    for name in inner.data:
+    found: dict[str, float | tuple[float, ...]] = {}
+    for name, given in inner.data.items():
         with context.noting():
             if name not in valid:
                 raise inner.error(name, unknown_name("column", name, valid))
-            found[name] = inner.quantity(name, unit_of[name])
+            several = [unit_of[name]] * len(given) if isinstance(given, list) else []
+            values = inner.quantities(name, several, "a value or several") if several else None
+            found[name] = values or inner.quantity(name, unit_of[name])
     return found
 
 

@@ -197,8 +197,13 @@ _FROM = Key(r.reference("search", "branch", "locus", "path"),
             otherwise="none")
 _DIRECTION = Key(k.direction, "`1` or `-1`: only that way, in which the parameter first grows or falls.",
                  otherwise="both")
-_ZEROS = Key(k.zeros, "Columns and values whose passing is labelled UZ, such as `{ theta_1 = \"10 deg\" }`.", {},
-             otherwise="none")
+_ZEROS = Key(
+    k.zeros,
+    "Columns and values whose passing is labelled UZ, such as `{ theta_1 = \"10 deg\" }`; "
+    "or several values, `[0, \"10 deg\"]`.",
+    {},
+    otherwise="none",
+)
 _SETTINGS = Key(k.settings, "Fields of `mjcont.Settings`: `ds`, `ds_max`, `angle`, `chord`, `max_points`, ...", {},
                 otherwise="its defaults")
 _POINT = Key(r.reference(*SPECIAL, labels=_LOCATED),

@@ -67,8 +67,7 @@ def sweep(
     out : path
         A folder for sweep.jsonl (the journal), sweep.csv and sweep.h5.
     design : {"latin hypercube", "monte carlo", "quasi-random", "grid", "list"}
-    cases, seed : int
-        Of the first three designs. With the second and third a sweep goes on to more cases when they are raised.
+    cases, seed : of the first three designs; the second and third go on to more cases when there are more.
     record : sequence of str
         Quantities such as "cusp.F_ul"; default the parameters that each point's defining system solves for.
     limit : int, optional

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_sweeps import STUDY, records, same, study
+from problems.variants import STUDY, records, same, study
 
 import mjcont as mc
 from mjcont.sweeps import engine as sweepengine

@@ -1,6 +1,5 @@
 """Sweeps: designs against closed forms, every case against the point traced afresh, and nothing lost when killed."""
 
-import json
 import multiprocessing
 import os
 import signal
@@ -12,49 +11,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from problems.variants import STUDY, records, same, study
 
 import mjcont as mc
 from mjcont.commands.cli import main
 from mjcont.numerics.search.spanning import heights, spanning_tree
-from mjcont.studies.study import Study
 from mjcont.sweeps.designs import make_design
 from mjcont.sweeps.engine import Crew, Run, Tree
 
-STUDY = """
-model = "overcentre"
-[[branch]]
-name = "equilibria"
-parameter = "F"
-bounds = [-50, 50]
-start = { F = 50, k_j = 1000 }
-[sweep]
-cases = 12
-seed = 3
-record = ["fold.F", "fold.theta_1"]
-[[sweep.point]]
-name = "fold"
-branch = "equilibria"
-label = "LP1"
-[sweep.vary]
-k_j = { lognormal = "10 %" }
-gravity_angle = { uniform = "2 deg" }
-load_factor = { "truncated normal" = "2 %" }
-"""
 GEAR = Path(__file__).parent.parent.parent / "studies" / "gear_cusp_tolerances.toml"
-
-
-def study(folder: Path, text: str = STUDY) -> Study:
-    path = folder / "study.toml"
-    path.write_text(text, encoding="utf-8")
-    return mc.load_study(path)
-
-
-def records(folder: Path) -> list[dict]:
-    return [json.loads(line) for line in (folder / "sweep.jsonl").read_text().splitlines()[1:]]
-
-
-def same(one: Path, other: Path) -> bool:
-    return all((one / f).read_bytes() == (other / f).read_bytes() for f in ("sweep.csv", "sweep.h5"))
 
 
 # -- designs and trees -----------------------------------------------------------------------------------------

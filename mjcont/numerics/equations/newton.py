@@ -24,6 +24,8 @@ _DIVERGING = 2.0
 _NOISE = 1e-6
 LARGEST_ERROR = 1e-7
 _LARGEST_STEP = 2.0
+# implicit steps from a start: the largest, in scaled units, most corrections, and the part of the step they end at
+_LARGEST_START, _CORRECTIONS, _CLOSE = 0.1, 4, 0.03
 _DIVERGED = Refused(Why.DIVERGED, "the corrector diverged")
 _NEWTON_DIVERGED = Refused(Why.DIVERGED, "Newton's method diverged")
 
@@ -220,7 +222,7 @@ class Start:
 def find_start(problem: Equations, x0: Array, values: Values) -> Start:
     """Return the equilibrium that `x0` belongs to: by Newton if it is near, else the one it flows to.
 
-    Far from an equilibrium pseudo-transient steps (M/dt + K) dx = f follow the damped motion with growing dt.
+    Far from an equilibrium implicit steps M dx = dt f(x + dx) follow the damped motion with growing dt.
     """
     system = System(problem, values, ())
     no_y = np.zeros(0)
@@ -238,16 +240,16 @@ def find_start(problem: Equations, x0: Array, values: Values) -> Start:
 
 
 def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array, Refused | None]:
-    """Follow M x' = f by linearly implicit steps whose length grows while the motion is smooth."""
+    """Follow M x' = f by implicit steps whose length grows while the motion is smooth."""
     problem, no_y = system.problem, np.zeros(0)
     scale = problem.state_scale
     local = system.local(x, no_y)
     mass = _mass_like(local)
     dt = _first_dt(local, mass)
     for _ in range(most):
-        dx = _solve(mass / dt - local.raw_jac, local.f)
+        dx = _implicit(system, local, mass, dt)
         size = float(np.max(np.abs(dx) / scale))
-        if not np.isfinite(size) or size > 0.2:
+        if not size <= _LARGEST_START:
             dt *= 0.25
             if dt < 1e-14:
                 sentence = "the motion from the start could not be followed: steps became too short"
@@ -258,13 +260,35 @@ def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array,
         newton = _solve(-local.raw_jac, local.f)
         if size < 1e-3 and np.max(np.abs(newton) / scale) < 1e-9:
             return x, None
-        dt *= 2.0 if size < 0.1 else 1.0
+        dt *= 2.0 if size < 0.5 * _LARGEST_START else 1.0
     if np.abs(local.f).max() <= 1e-9 * abs(local.raw_jac).max() * np.max(scale):
         sentence = "the motion from the start came to rest, but equilibria are not isolated there: K is singular"
     else:
         sentence = f"the motion from the start had not come to rest after {most} steps"
         sentence += ": it may drift or have no equilibrium"
     return x, Refused(Why.UNSETTLED, sentence)
+
+
+def _implicit(system: System, local: Local, mass: Any, dt: float) -> Array:
+    """Return the step that solves M dx = dt f(x + dx), NaN where dt is too large for it.
+
+    Steps that are long beside a growing motion damp it and would end at an unstable equilibrium: the determinant of
+    M/dt - df/dx has another sign there. And corrections have to settle: one Newton step alone opens stiff pins by the
+    square of the angle that it turns, and what closes them again is so much larger than what moves a mechanism near a
+    fold that the motion would wander.
+    """
+    problem = system.problem
+    ahead = Factored(mass / dt - local.raw_jac)
+    dx = ahead.solve(local.f)
+    for _ in range(_CORRECTIONS):
+        if ahead.sign < 0.0 or not float(np.max(np.abs(dx) / problem.state_scale)) <= _LARGEST_START:
+            break
+        there = system.local(problem.retract(local.x, dx), np.zeros(0))
+        more = _solve(mass / dt - there.raw_jac, there.f - mass @ dx / dt)
+        dx = dx + more
+        if np.max(np.abs(more) / problem.state_scale) <= _CLOSE * np.max(np.abs(dx) / problem.state_scale):
+            return dx
+    return np.full(problem.n, np.nan)
 
 
 def _solve(matrix: Any, rhs: Array) -> Array:
