@@ -24,6 +24,7 @@ from mjcont.errors import (
     NameLookupError,
     ParameterError,
     ResultFileError,
+    ResultWarning,
     StartError,
     StudyError,
 )
@@ -133,6 +134,7 @@ __all__ = [
     "ParameterError",
     "Point",
     "ResultFileError",
+    "ResultWarning",
     "Segment",
     "Sensitivities",
     "Settings",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -61,7 +62,6 @@ class VectorField(Model):
     """
 
     second_order = False
-    evaluations = 0
     state_labels: list[tuple[str, str]] = []
 
     def __init__(
@@ -86,7 +86,7 @@ class VectorField(Model):
         self.state_scale = np.ones(self.n) if scale is None else finite_array("scale", scale, (self.n,))
         if not np.all(self.state_scale > 0.0):
             raise ParameterError(f"scale must be positive, got {self.state_scale}")
-        self.evaluations = 0
+        self._counts: dict[int, int] = {}  # by thread: what one computes costs what that one evaluates
         units, bounds = units or {}, bounds or {}
         for k in bounds:
             if k not in parameters:
@@ -124,12 +124,18 @@ class VectorField(Model):
         labels = [name for name, _ in self.state_labels]
         return self.u0.copy() if state is None else finite_array("state", state, (self.n,), labels=labels)
 
+    @property
+    def evaluations(self) -> int:
+        """Evaluations of the function so far, by this thread."""
+        return self._counts.get(threading.get_ident(), 0)
+
     # -- the problem -----------------------------------------------------------------------------------------
 
     def residual(self, x: Array, values: Values) -> Array:
         """Return f, (n,); NaN where the function overflows or leaves its domain."""
         check()
-        self.evaluations += 1
+        thread = threading.get_ident()
+        self._counts[thread] = self._counts.get(thread, 0) + 1
         try:
             found = np.array(self.function(x, values), dtype=float)
         except MjcontError:

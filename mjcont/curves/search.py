@@ -164,6 +164,11 @@ class _Limits:
     seconds: float
     evaluations_before: int
 
+    def __post_init__(self) -> None:
+        """Refuse a time that is none."""
+        if not self.seconds >= 0:
+            raise ParameterError(f"max_seconds must be a number of seconds, got {self.seconds}")
+
     def reached(self, search: _Search) -> str:
         """Return a sentence if a limit is reached, else an empty string."""
         if search.degenerate >= _CONTINUUM and 2 * search.degenerate > len(search.roots):

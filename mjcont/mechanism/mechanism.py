@@ -18,15 +18,15 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import ParameterError, unknown_name
-from mjcont.mechanism import rigid
-from mjcont.mechanism.core import ENGINE, Core, copy_model, evaluation_copy, is_constrained, owned_copy, simulation_copy
+from mjcont.mechanism.core import ENGINE, copy_model, evaluation_copy, is_constrained, owned_copy
 from mjcont.mechanism.declarations import Declaration
 from mjcont.mechanism.geometry import Geometry, refuse_overlap
 from mjcont.mechanism.observables import Observed, model_observables
 from mjcont.mechanism.parameters import collect_parameters, declared_parameter
-from mjcont.mechanism.parts import Held
+from mjcont.mechanism.sharing import Shareable
 from mjcont.mechanism.summary import describe
-from mjcont.mechanism.writer import FieldWriter
+from mjcont.mechanism.zeromodes import whole as rigid
+from mjcont.mechanism.zeromodes.parts import Held
 from mjcont.models import features, loading
 from mjcont.models.actuators import bush_names
 from mjcont.models.states import checked_state, coordinates_are_flat, keyframes, model_name, state_labels, state_scale
@@ -36,7 +36,7 @@ from mjcont.results.quantities import Parameter, told_apart
 from mjcont.results.text import ParameterTable
 
 
-class Mechanism(Observed, Held, Model):
+class Mechanism(Shareable, Observed, Held, Model):
     """A MuJoCo model as an equilibrium problem f(q, p) = 0 with named parameters and observables.
 
     Use `Mechanism.from_xml`, `from_spec` or `from_model` to make one.
@@ -64,7 +64,6 @@ class Mechanism(Observed, Held, Model):
     second_order = True
     parameters: ParameterTable
     declared: dict[str, Any]
-    _core: Core
 
     def __init__(
         self,
@@ -89,8 +88,9 @@ class Mechanism(Observed, Held, Model):
         self.declared = {}
         self.keyframes = keyframes(model)
         self.constrained, self._passive = is_constrained(model), features.passive(model)
-        self._held = ()
-        self._core = Core(model, self.parameters, geometry, self.constrained, self.state_scale, self.retract_each)
+        self._held: tuple[str, ...] = ()
+        self._friction = friction
+        self._own(model, geometry)
 
     # -- making one ----------------------------------------------------------------------------------------
 
@@ -146,23 +146,25 @@ class Mechanism(Observed, Held, Model):
         ParameterError
             If the name is in use, a path matches nothing, or its targets disagree with each other in the loaded model.
         """
-        if name in self.parameters:
-            raise ParameterError(f"parameter '{name}' is declared twice")
-        given = Declaration(name, unit, bounds, tuple(paths), function, value)
-        parameter = declared_parameter(self._core.as_loaded(), self._core.geometry, given)
-        self.parameters[name] = parameter
-        renamed = told_apart(self.observables, self.parameters)
-        self.observables.clear()
-        self.observables.update(renamed)
-        self.declared[name] = given.record(parameter)
-        if parameter.kind == "spec":
-            self._core.relayout()
+        with self._cores.lock:
+            if name in self.parameters:
+                raise ParameterError(f"parameter '{name}' is declared twice")
+            given, core = Declaration(name, unit, bounds, tuple(paths), function, value), self._core
+            parameter = declared_parameter(core.as_loaded(), core.geometry, given)
+            self.parameters[name] = parameter
+            renamed = told_apart(self.observables, self.parameters)
+            self.observables.clear()
+            self.observables.update(renamed)
+            self.declared[name] = given.record(parameter)
+            if parameter.kind == "spec":
+                self._cores.relayout()
         return parameter
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`; a path such as `joint:hip.stiffness` is one, too."""
-        if ":" in name and name not in self.parameters:
-            self.declare(name, name)
+        with self._cores.lock:
+            if ":" in name and name not in self.parameters:
+                self.declare(name, name)
         return Model.parameter(self, name)
 
     def values(self, given: Values | None = None) -> dict[str, float]:
@@ -178,7 +180,7 @@ class Mechanism(Observed, Held, Model):
         given = given or {}
         for name, value in given.items():
             self.parameter(name).check(value)
-        merged = {name: p.value for name, p in self.parameters.items()}
+        merged = {name: p.value for name, p in list(self.parameters.items())}
         merged.update({name: float(v) for name, v in given.items()})
         if any(self.parameters[name].kind == "spec" for name in given):
             self._core.geometry.model(self.parameters, merged)
@@ -188,13 +190,15 @@ class Mechanism(Observed, Held, Model):
 
     def residual(self, x: Array, values: Values) -> Array:
         """Return the generalised forces M qacc at rest, (nv,), in N and N m."""
-        self._core.writer.write(self.parameters, values)
-        return self._core.evaluator.forces(x[None])[0].copy()
+        core = self._core
+        core.writer.write(self.parameters, values)
+        return core.evaluator.forces(x[None])[0].copy()
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return the residual at x moved by each row of `steps` (m, nv), shape (m, nv)."""
-        self._core.writer.write(self.parameters, values)
-        return self._core.evaluator.forces(self.retract_each(x, steps)).copy()
+        core = self._core
+        core.writer.write(self.parameters, values)
+        return core.evaluator.forces(self.retract_each(x, steps)).copy()
 
     @property
     def pieces(self) -> list[bytes]:
@@ -217,18 +221,21 @@ class Mechanism(Observed, Held, Model):
 
     def acceleration(self, qpos: Array, qvel: Array, values: Values | None = None) -> Array:
         """Return qacc at a state of motion, (nv,), in m/s^2 and rad/s^2."""
-        self._core.writer.write(self.parameters, self.values(values))
-        return self._core.evaluator.accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
+        every = self.values(values)
+        core = self._core
+        core.writer.write(self.parameters, every)
+        return core.evaluator.accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
 
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
     ) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
+        core = self._core
         refuse_overlap(self.parameters, values, tuple(wrt))
-        found = self._core.derivatives.linearize(x, values, wrt, accurate, ranges)
+        found = core.derivatives.linearize(x, values, wrt, accurate, ranges)
         if not self._held:
             return found
-        mass = self._core.evaluator.mass(x)
+        mass = core.evaluator.mass(x)
         held = rigid.rate(found.jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
         return Linearization(found.f, found.jac - held, found.par, found.piece)
 
@@ -238,17 +245,13 @@ class Mechanism(Observed, Held, Model):
 
     def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
         """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
-        self._core.writer.write(self.parameters, values)
-        mass, damping = self._core.evaluator.mass(x), self._core.evaluator.damping(x, self.state_scale)
+        core = self._core
+        core.writer.write(self.parameters, values)
+        mass, damping = core.evaluator.mass(x), core.evaluator.damping(x, self.state_scale)
         if self._held:
             # critical damping: a held mode decays and can never look unstable or marginal
             damping = damping + 2.0 * rigid.rate(jac, mass) * rigid.holding(mass, self._held_directions(x))
         return Pencil(mass, damping, -jac)
-
-    @property
-    def nonsmooth(self) -> bool:
-        """Whether the forces are smooth in pieces only."""
-        return self._core.nonsmooth
 
     @property
     def passive(self) -> bool:
@@ -257,20 +260,22 @@ class Mechanism(Observed, Held, Model):
 
     def pencils(self, states: Array, values: Sequence[Values], jacs: Sequence[Array]) -> list[Pencil]:
         """Return `pencil` at many equilibria of a passive mechanism."""
+        core = self._core
         loads = {n for n, p in self.parameters.items() if p.kind in ("control", "gravity")}
         first = values[0]
         if self._held or any(v[n] != first[n] for v in values for n in first.keys() - loads):
             return [self.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]
-        self._core.writer.write(self.parameters, first)
-        evaluator, scale = self._core.evaluator, self.state_scale
+        core.writer.write(self.parameters, first)
+        evaluator, scale = core.evaluator, self.state_scale
         return [Pencil(evaluator.mass(x), evaluator.damping(x, scale), -j) for x, j in zip(states, jacs, strict=True)]
 
     def first_order(self, x: Array, values: Values, steps: Array) -> Array:
         """Return (v, qacc) at steps (m, 2 nv) of position and velocity around rest at x, shape (m, 2 nv)."""
-        self._core.writer.write(self.parameters, values)
+        core = self._core
+        core.writer.write(self.parameters, values)
         velocity = steps[:, self.n :]
         moved = self.retract_each(x, steps[:, : self.n])
-        return np.hstack([velocity, self._core.evaluator.accelerations(moved, velocity)])
+        return np.hstack([velocity, core.evaluator.accelerations(moved, velocity)])
 
     def periods(self, x: Array, values: Values) -> Array:
         """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
@@ -312,28 +317,11 @@ class Mechanism(Observed, Held, Model):
 
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""
-        self._core.writer.write(self.parameters, values)
-        return self._core.evaluator.active(x)
-
-    @property
-    def failure(self) -> str:
-        """Why the model does not compile at the values evaluated last; empty where it does."""
-        return self._core.writer.failure or self._core.derivatives.failure
-
-    @property
-    def evaluations(self) -> int:
-        """Forward evaluations so far; every row of a batch counts as one."""
-        return self._core.evaluator.count
+        core = self._core
+        core.writer.write(self.parameters, values)
+        return core.evaluator.active(x)
 
     # -- states ----------------------------------------------------------------------------------------------
-
-    def simulation_model(self) -> mujoco.MjModel:
-        """Return a copy of the model as loaded, for time histories; diverging motion is not reset silently."""
-        return simulation_copy(self._core.loaded)
-
-    def writer(self, model: mujoco.MjModel) -> FieldWriter:
-        """Return what writes parameter values into a copy of the model."""
-        return self._core.writer_of(model)
 
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return a start: the state given, or a keyframe's, or qpos0.

@@ -180,7 +180,10 @@ class Observed:
 
     observables: dict[str, Observable]
     parameters: Any
-    _core: _Reading
+
+    @property
+    def _core(self) -> _Reading:
+        raise NotImplementedError
 
     def observe(self, name: str, function: Callable[[Any, Any], float], unit: str = "") -> None:
         """Add an observable computed by `function(model, data)` from MuJoCo's model and data.

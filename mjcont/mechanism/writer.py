@@ -84,7 +84,7 @@ class FieldWriter:
         if not values.keys() <= parameters.keys():
             raise unknown_name("parameter", next(n for n in values if n not in parameters), parameters)
         written = self._written
-        new = {n: values.get(n, p.value) for n, p in parameters.items()}
+        new = {n: values.get(n, p.value) for n, p in list(parameters.items())}  # others may declare meanwhile
         if not self._rebase(parameters, new):
             return
         changed = [n for n, v in new.items() if written.get(n, parameters[n].value) != v]
@@ -145,7 +145,7 @@ class FieldWriter:
 
     def _rebase(self, parameters: Mapping[str, Parameter], new: Mapping[str, float]) -> bool:
         """Give the model the geometry that the spec compiles to; return whether it does compile."""
-        wanted = {n: new[n] for n, p in parameters.items() if p.kind == "spec"}
+        wanted = {n: v for n, v in new.items() if parameters[n].kind == "spec"}
         if self._known != len(parameters):
             self._known, self._alone = len(parameters), {}
         if wanted == self._base:
@@ -191,11 +191,11 @@ class FieldWriter:
         if name not in self._groups:
             entries, group, grown = set(parameters[name].entries), {name}, True
             while grown:
-                new = {n for n, p in parameters.items() if n not in group and not entries.isdisjoint(p.entries)}
+                new = {n for n, p in list(parameters.items()) if n not in group and not entries.isdisjoint(p.entries)}
                 entries |= {e for n in new for e in parameters[n].entries}
                 group |= new
                 grown = bool(new)
-            self._groups[name] = tuple(n for n in parameters if n in group)
+            self._groups[name] = tuple(n for n in list(parameters) if n in group)
         return self._groups[name]
 
     def _restore(self, parameter: Parameter) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 from mjcont.errors import ModelError, ModelWarning, ParameterError
 from mjcont.models.actuators import actuator_name, follower, integrator
 from mjcont.models.numbers import refuse_invalid
+from mjcont.models.sources import MOST_FREEDOMS
 from mjcont.models.states import element_name
 from mjcont.results.quantities import FRICTION
 
@@ -25,6 +26,11 @@ def refuse_unsupported(model: mujoco.MjModel) -> None:
     if model.nv == 0:
         raise ModelError("the model has no degree of freedom, so nothing in it can find a place to rest: add a joint")
     refuse_invalid(model)
+    if model.nv > MOST_FREEDOMS:
+        raise ModelError(
+            f"the model has {model.nv} degrees of freedom: mjcont keeps matrices of that size in full, "
+            f"{8e-9 * model.nv**2:.1f} GB each, and takes at most {MOST_FREEDOMS}"
+        )
     if model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP:
         raise ModelError('sleeping bodies make equilibria path dependent: remove <flag sleep="enable"/>')
     if np.any(model.jnt_springyield > 0) or np.any(model.tendon_springyield > 0):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import threading
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ import numpy as np
 from mjcont.models.quiet import heard
 
 _DIGITS = 17
+_PRECISION = threading.Lock()  # the number of digits is one for all threads
 
 Element = ElementTree.Element  # a comment is one whose tag is a function
 
@@ -23,7 +25,7 @@ def exact_text(spec: mujoco.MjSpec) -> str:
     library = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob("libmujoco*"), "")) or None)
     setter = getattr(library, "_mjPRIVATE__set_xml_precision", None)
     getter = getattr(library, "_mjPRIVATE__get_xml_precision", None)
-    with heard():
+    with heard(), _PRECISION:
         spec.compile()
         if setter is None or getter is None:
             return str(spec.to_xml())

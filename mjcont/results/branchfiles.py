@@ -1,6 +1,6 @@
 """Branches as HDF5 that other tools read, and as CSV.
 
-Layout beside what `files` says (format version 1)::
+Layout beside what `files` says (format version 2)::
 
     /                     attributes: start, start_index, settings, free, ends, neutral_saddles, notes, held (JSON), ...
     /states               (N, nq) float64, attributes names, units
@@ -9,7 +9,7 @@ Layout beside what `files` says (format version 1)::
     /stability            (N,) int8: 1 stable, 0 marginal, -1 unstable
     /n_unstable           (N,) int32
     /residuals            (N,) float64, scaled
-    /fixed                attributes: the other parameters' values
+    /fixed                attributes: the other parameters' values, by the keys of their names
     /special_points/LABEL attributes: kind, index, tolerance, converged, note, coefficients (JSON); vectors/NAME
 
 A load path holds such a group for each of its segments.
@@ -26,7 +26,16 @@ import numpy as np
 
 from mjcont.results.branch import Branch
 from mjcont.results.certificates import Certificate
-from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, write_atomically, write_columns, write_common
+from mjcont.results.files import (
+    FORMAT_VERSION,
+    csv_columns,
+    frozen,
+    read_columns,
+    read_values,
+    save_hdf5,
+    write_common,
+    write_values,
+)
 from mjcont.results.model import Model
 from mjcont.results.points import Mark
 from mjcont.results.spectra import Late, Spectra
@@ -36,12 +45,7 @@ _CODES = {"stable": 1, "marginal": 0, "unstable": -1}
 
 def save(branch: Branch, path: str | Path) -> Path:
     """Write a branch as HDF5."""
-    return write_atomically(path, lambda temporary: _write(branch, temporary))
-
-
-def _write(branch: Branch, path: Path) -> None:
-    with h5py.File(path, "w") as f:
-        write_branch(branch, f)
+    return save_hdf5(path, lambda f: write_branch(branch, f))
 
 
 def write_branch(branch: Branch, f: h5py.Group, *, model: bool = True) -> None:
@@ -73,7 +77,7 @@ def write_branch(branch: Branch, f: h5py.Group, *, model: bool = True) -> None:
     f["stability"].attrs["meaning"] = "1 stable, 0 marginal, -1 unstable"
     f["n_unstable"] = branch.n_unstable.astype(np.int32)
     f["residuals"] = branch.residuals
-    f.create_group("fixed").attrs.update(dict(branch.fixed))
+    write_values(f, "fixed", branch.fixed)
     f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
     if branch.certificate is not None:
         f.attrs["certificate"] = branch.certificate.to_json()
@@ -102,7 +106,7 @@ def read_branch(f: h5py.Group, problem: Model | None) -> Branch:
     words = {v: k for k, v in _CODES.items()}
     labels = list(zip(json.loads(f["states"].attrs["names"]), json.loads(f["states"].attrs["units"]), strict=True))
     free = {k: tuple(v) for k, v in json.loads(f.attrs["free"]).items()}
-    fixed = {k: float(v) for k, v in f["fixed"].attrs.items()}
+    fixed = read_values(f, "fixed")
     states, eigenvalues = frozen(f["states"][()]), f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]
     held = json.loads(f.attrs.get("held", "[]"))
     problem = problem.holding(held) if problem is not None and held else problem
@@ -163,4 +167,4 @@ def _read_mark(g: h5py.Group, label: str) -> Mark:
 def write_csv(branch: Branch, path: str | Path, *, degrees: bool = True) -> Path:
     """Write the columns of a branch with units in the header; angles in degrees on request."""
     extra = list(zip(branch.stability, (int(n) for n in branch.n_unstable), branch.labels, strict=True))
-    return write_columns(branch.columns, path, ("stability", "unstable eigenvalues", "label"), extra, degrees=degrees)
+    return csv_columns(branch.columns, path, ("stability", "unstable eigenvalues", "label"), extra, degrees=degrees)

@@ -99,9 +99,7 @@ def build(model: Mapping[str, Any]) -> Mechanism:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # said when the sweep was set up
         mechanism = Mechanism.from_xml(model["mjcf"], friction=model["friction"])
-    for name, given in model["declared"].items():
-        if name not in mechanism.parameters:
-            mechanism.declare(name, *given["paths"], unit=given["unit"], bounds=tuple(given["bounds"]))
+    mechanism.declare_again(model["declared"])
     return mechanism
 
 

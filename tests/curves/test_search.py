@@ -269,6 +269,7 @@ def test_the_result_prints_as_a_table_and_starts_a_diagram():
         ({"region": {"a": (1, 0)}}, mc.BoundsError, "low < high"),
         ({"region": {"a": 3}}, mc.BoundsError, "two numbers"),
         ({"starts": 0}, mc.ParameterError, "starts must be at least 1"),
+        ({"max_seconds": math.nan}, mc.ParameterError, "max_seconds must be a number of seconds, got nan"),
         ({"params": 3.0}, mc.ParameterError, "params must be a dict"),
     ],
 )

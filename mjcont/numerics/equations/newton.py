@@ -131,12 +131,10 @@ def correct(
     with `lu`, where the last points tell it: one step may then be enough. A point farther than `reach` from the
     prediction would be refused. `local` is the evaluation at the prediction, where there is one.
     """
-    size, ratio = np.inf, 0.0
+    size, ratio, tol = np.inf, 0.0, settings.tol
     failure: Refused | None = Refused(Why.UNSETTLED, "the corrector did not converge")
-    tol = settings.tol
     local, iterations = local or system.local(x, y), 0
     steps, creeps = list[Array](), False
-    before: Array | None = None
     chord: Array | None = None
     while iterations < settings.max_corrections:
         iterations += 1

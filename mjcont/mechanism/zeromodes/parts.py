@@ -1,6 +1,6 @@
 """Free motions of parts: a wheel on its axle, a rod between two balls, a block on a rail, that no force opposes.
 
-They are found and held as those of the whole model are (`rigid`). A part is a body, or a body with all that it carries;
+They are found and held as those of the whole model are (`whole`). A part is a body, or a body with all that it carries;
 its motions are twists in its own frame, since an axle moves with what bears it. What hangs from a ball joint, or
 floats, may also turn about an axis of the ground, such as the vertical, wherever its bearer goes.
 """
@@ -16,8 +16,8 @@ from typing import Any, Self
 import mujoco
 import numpy as np
 
-from mjcont.mechanism import rigid
 from mjcont.mechanism.core import Core
+from mjcont.mechanism.zeromodes import whole as rigid
 from mjcont.numerics.equations.algebra import least_squares, singular
 from mjcont.numerics.equations.problem import Array, Values
 
@@ -252,8 +252,11 @@ class Held:
     """What a Mechanism knows of motions, of the whole model or of its parts, that nothing opposes."""
 
     n: int
-    _core: Core
     _held: tuple[str, ...]
+
+    @property
+    def _core(self) -> Core:
+        raise NotImplementedError
 
     def rigid_modes(self, x: Array, values: Values, among: Sequence[str] | None = None) -> tuple[str, ...]:
         """Return the names of the motions that no force opposes near a state, of all or `among` some."""
