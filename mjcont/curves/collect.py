@@ -41,7 +41,6 @@ class Found:
 
 
 Progress = Callable[[int, Found | None], None]
-_VECTOR_NAMES = ("v", "w")
 
 
 def make_point(problem: Model, x: Array, values: Values, kind: str = "") -> Point:
