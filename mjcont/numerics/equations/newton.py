@@ -135,7 +135,8 @@ def correct(
     failure: Refused | None = Refused(Why.UNSETTLED, "the corrector did not converge")
     tol = settings.tol
     local, iterations = local or system.local(x, y), 0
-    steps, chord, creeps = list[Array](), None, False
+    chord: Array | None = None
+    steps, creeps = list[Array](), False
     while iterations < settings.max_corrections:
         iterations += 1
         if lu is None:
