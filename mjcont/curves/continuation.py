@@ -251,10 +251,11 @@ def _prepare(
     zero_values(zeros)
     for name, ends in limits.items():
         check_limits(name, ends)
-    problem, notes = hold_rigid_modes(problem, x, values)
-    refuse_pushing(problem, parameter, x, values)
-    if notes:
-        problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
+    with clock.unlimited():  # a dozen states tell, whatever the limit on time
+        problem, notes = hold_rigid_modes(problem, x, values)
+        refuse_pushing(problem, parameter, x, values)
+        if notes:
+            problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
     try:
         found = settled(problem, start if state is keyframe is None else None, x, values)
     except clock.TimeUp:

@@ -116,7 +116,11 @@ def _segment(
     if keep is None:
         return None
     index, before = (keep, keep + 1) if end == "first" else (len(branch) - 1 - keep, len(branch) - 2 - keep)
-    system = _system(branch, index, free)
+    with clock.unlimited():  # there is a start: a row of the branch
+        system = _system(branch, index, free)
+        start = _outward(system, branch, index, before, settings)
+    if isinstance(start, Refused):
+        return None
     zeros = branch.settings.get("zeros", {})
     if branch.kind == "equilibria":
         walker = equilibrium_walker(system, settings, zeros)
@@ -125,9 +129,6 @@ def _segment(
         stop = unfolding_stop(system) if kind == "BP" else None
         detectors = locus_detectors(kind, system, settings, True, zeros)
         walker = Walker(OneByOne(system, settings, detectors), stop, frozenset(default_ends(kind)))
-    start = _outward(system, branch, index, before, settings)
-    if isinstance(start, Refused):
-        return None
     run = trace(walker, start, reporter(walker.system, progress))
     return _as_branch(branch, system, run, end, settings, _length(system, branch, index, end))
 

@@ -12,6 +12,8 @@ from problems.random_mechanism import KINDS, Judge, bounds_of, kind_of, mechanis
 import mjcont as mc
 
 ALL, BLOCK, ROWS = 300, 5, 4
+# differences split a double zero into a pair of this size at most, 1/s
+ZERO = 1e-2
 STATUSES = {"at bound", "closed", "step too small", "breaks off", "max points", "runs off"}
 # special points at which the number of unstable eigenvalues may change
 CHANGING = ("LP", "HB", "BP", "CO", "ZH", "BT")
@@ -29,10 +31,12 @@ def followed(seed):
         return None
 
 
-def held_of(branch):
-    """Return how many motions a branch's notes say are held."""
+def without_held(branch, values):
+    """Return eigenvalues without those of held motions: a zero, or two of them, for each (less where they coincide)."""
     notes = [n for n in branch.notes if n.startswith("rigid-body zero modes held")]
-    return len(notes) and notes[0].count("rotation") + notes[0].count("translation")
+    held = len(notes) and notes[0].count("rotation") + notes[0].count("translation")
+    values = values[np.argsort(np.abs(values))]
+    return values[np.count_nonzero(np.abs(values[: 2 * held]) < ZERO) :]
 
 
 def judged(branch, judge, rows):
@@ -40,7 +44,7 @@ def judged(branch, judge, rows):
     found = {}
     for i in rows:
         values, apart = judge.eigenvalues(branch.states[i], float(branch["load"][i]))
-        values = values[np.argsort(np.abs(values))][2 * held_of(branch) :]
+        values = without_held(branch, values)
         noise = 10.0 * apart + 1e-9 * np.abs(values).max()
         if np.all(np.abs(values.real) > noise):
             found[i] = int(np.count_nonzero(values.real > 0))
@@ -68,7 +72,7 @@ def check(seed):
     for p in branch.special_points:
         if p.kind in ("LP", "BP", "HB"):
             values, apart = judge.eigenvalues(p.state, p["load"])
-            values = values[np.argsort(np.abs(values))][2 * held_of(branch) :]
+            values = without_held(branch, values)
             near = np.abs(values.real if p.kind == "HB" else values).min()
             assert near <= 100.0 * apart + 1e-4 * np.abs(values).max(), f"{p}: no eigenvalue of MuJoCo's is critical"
     for p, q in itertools.pairwise(branch.special_points):

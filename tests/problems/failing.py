@@ -11,7 +11,17 @@ from scipy import sparse
 
 import mjcont as mc
 from mjcont.curves.walkers import equilibrium_detectors
-from mjcont.numerics.equations import adjoint, algebra, bordered, defining, differences, newton, settings, system
+from mjcont.numerics.equations import (
+    adjoint,
+    algebra,
+    bordered,
+    defining,
+    differences,
+    newton,
+    settings,
+    starts,
+    system,
+)
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Pencil
 from mjcont.numerics.equations.refusals import Refused
@@ -178,6 +188,7 @@ CASES = {
     "arclength.by_contraction": lambda b: arclength.by_contraction(b.point()),
     "arclength.turned_back": lambda b: arclength.turned_back(b.system, [b.point()]),
     "arclength.land": lambda b: arclength.land(b.system, b.point(), 0, 0.5, 0.1, b.settings),
+    "arclength.land_beside": lambda b: arclength.land_beside(b.system, b.point(), 0, 0.5, b.settings),
     "arclength.aim": lambda b: arclength.aim(b.system, b.point(), 0.1, np.zeros(b.n + 1), steady=True),
     "turning.may_turn_beyond": lambda b: turning.may_turn_beyond(b.system, *b.pair),
     "between.rows_between": lambda b: None if b.sparse else between.rows_between(b.system, b.pair, 1e-6),
@@ -205,6 +216,7 @@ CASES = {
     "corner.loaded_at": lambda b: corner.loaded_at(b.system, b.point()),
     "corner.describe": lambda b: corner.describe(frozenset(), frozenset()),
     "corner.cross": lambda b: corner.cross(b.system, b.point(), b.settings),
+    "corner.break_off": lambda b: corner.break_off(b.system, b.point()),
     "corner.CornerDetector": lambda b: b.located([corner.CornerDetector(b.system, b.settings)]),
     "creep.rates": lambda b: creep.rates(b.local),
     "creep.creep": lambda b: creep.creep(b.problem, b.x, b.values, most=20),
@@ -293,7 +305,8 @@ CASES = {
     "newton.undefined": lambda b: newton.undefined(b.system),
     "newton.correct": lambda b: newton.correct(b.system, b.x, b.y, b.point().tangent, None, b.settings),
     "newton.solve": lambda b: newton.solve(system.System(b.problem, b.values, ()), b.x, np.zeros(0)),
-    "newton.find_start": lambda b: newton.find_start(b.problem, b.x, b.values),
+    "newton.solve_linear": lambda b: newton.solve_linear(b.local.raw_jac, b.v),
+    "starts.find_start": lambda b: starts.find_start(b.problem, b.x, b.values),
     "normalform.fold_coefficient": lambda b: normalform.fold_coefficient(b.local, b.x, b.x),
     "normalform.cusp_coefficient": lambda b: normalform.cusp_coefficient(b.local, b.x, b.x),
     "normalform.first_lyapunov": lambda b: normalform.first_lyapunov(b.problem, b.x, b.values, 0.0),
@@ -329,10 +342,12 @@ CASES = {
 }
 # records without a computation of their own, and the guard, which has a test below
 PLAIN = {
+    "clock.TimeUp", "clock.allowance", "clock.check", "clock.expired", "clock.limited", "clock.unlimited",
+    "trace.time_up",
     "arclength.Earlier", "arclength.CurvePoint", "between.Between", "box.Minimum", "coordinates.Slot", "creep.Crept",
     "events.Found", "events.Located", "events.Detector", "guard.raise_unexpected",
     "guard.guarded", "interior.Interior", "interior.Gap", "kinds.Kind", "multistart.Runs",
-    "newton.Corrected", "newton.Start",
+    "newton.Corrected", "starts.Start",
     "normalform.Crossing", "notes.Noted", "problem.Equations", "problem.Linearization", "problem.Pencil",
     "problem.Stencil", "problem.Varied", "refusals.Refused", "refusals.Why", "settings.Settings",
     "settings.check_numbers", "settings.make_settings",
