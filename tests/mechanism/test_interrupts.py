@@ -67,7 +67,7 @@ def test_forces_are_right_after_an_interrupt_at_any_line(source: str, asked: dic
     own, there = mechanism.values(), mechanism.values(asked)
     expected = {id(v): mechanism.residual(x, v) for v in (own, there, own)}
     count = 0
-    for line in lines(lambda: mechanism.residual(x, there), step):
+    for _line in lines(lambda: mechanism.residual(x, there), step):
         for values in (own, there, own) if count % 2 else (there, own):
             np.testing.assert_array_equal(mechanism.residual(x, values), expected[id(values)])
         count += 1
