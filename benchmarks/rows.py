@@ -11,6 +11,7 @@ import numpy as np
 import mjcont as mc
 from benchmarks.measure import seconds
 from mjcont.drawing.plotting import save_figure
+from mjcont.results.spectra import Spectra
 
 ROWS = 100_000
 
@@ -22,8 +23,8 @@ def long_branch(rows: int = ROWS) -> mc.Branch:
     take = np.arange(rows) % len(short)
     take = np.where((np.arange(rows) // len(short)) % 2, len(short) - 1 - take, take)  # to and fro: no jumps
     columns = {n: dataclasses.replace(c, values=c.values[take]) for n, c in short.columns.items()}
-    arrays = {n: getattr(short, n)[take] for n in ("states", "eigenvalues", "stability", "n_unstable", "residuals")}
-    return dataclasses.replace(short, columns=columns, **arrays)
+    arrays = {n: getattr(short, n)[take] for n in ("states", "stability", "n_unstable", "residuals")}
+    return dataclasses.replace(short, columns=columns, spectra=Spectra.of(short.eigenvalues[take]), **arrays)
 
 
 def many_rows() -> dict[str, float]:

@@ -111,9 +111,7 @@ class Slice:
 def main(out: Path) -> list[Finding]:
     """Draw the figure into a folder and return its findings."""
     folds = stiff_folds(mc.Mechanism.from_xml("nose_gear_full"))
-    curves = [
-        FoldCurve(whole(mc.continue_special(p, "k_j", SPAN, zeros={"k_j": STIFFNESS}, ds_max=0.03))) for p in folds
-    ]
+    curves = softened(folds)
     slices = [Slice.of(curves, k) for k in STIFFNESS]
     _draw(slices, out)
     soft, middle, stiff = slices
@@ -135,6 +133,12 @@ def stiff_folds(gear: mc.Mechanism) -> list[mc.SpecialPoint]:
     diagram = mc.bifurcation_diagram(gear, "F_ret", BOUNDS, {"F_ret": 20.0}, keyframes=KEYFRAMES)
     found = [p for b in diagram for p in whole(b).of_kind("LP") if p["theta_1"] < WINDOW]
     return sorted(found, key=lambda p: -p["theta_ov"])
+
+
+def softened(folds: Sequence[mc.SpecialPoint]) -> list[FoldCurve]:
+    """Return the curves of folds in stiffness."""
+    loci = [mc.continue_special(p, "k_j", SPAN, zeros={"k_j": STIFFNESS}, ds_max=0.03) for p in folds]
+    return [FoldCurve(whole(locus)) for locus in loci]
 
 
 def _draw(slices: Sequence[Slice], out: Path) -> None:

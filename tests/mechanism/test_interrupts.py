@@ -8,15 +8,25 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
+import mujoco
 import numpy as np
 import pytest
 
 import mjcont as mc
+from mjcont.models.quiet import quiet
 
 LENGTH = "spec:geom:rod.size[1]"
 ROD = """<mujoco><worldbody><body><joint name="hip" type="hinge" axis="0 1 0" stiffness="3" damping="1"/>
 <geom name="rod" type="cylinder" size="0.02 0.5" pos="0 0 0.5" density="1000"/></body></worldbody>
 <actuator><motor name="torque" joint="hip"/></actuator></mujoco>"""
+
+
+@pytest.fixture(autouse=True)
+def heard_again() -> Iterator[None]:
+    """Let MuJoCo be heard again: an interrupt on the way out of `with quiet` leaves it quiet."""
+    yield
+    quiet._depth = 0
+    mujoco.set_mju_user_warning(None)
 
 
 def interrupted(work: Callable[[], Any], line: int) -> bool:

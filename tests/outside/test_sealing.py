@@ -136,7 +136,7 @@ def test_names_of_any_kind_are_stored_and_loaded(branch: mc.Branch, tmp_path: Pa
     columns = {n: Column(n, "N", "observable", branch["theta_1"] + i) for i, n in enumerate(NAMES)}
     named = dataclasses.replace(
         branch, columns={**branch.columns, **columns}, fixed={n: float(i) for i, n in enumerate(NAMES)},
-        special_points=(),
+        marks=(),
     )
     loaded = mc.load(named.save(tmp_path / "named.h5"))
     assert list(loaded.columns) == list(named.columns)

@@ -145,7 +145,7 @@ def stiff_folds():
 @pytest.fixture(scope="module")
 def softened(stiff_folds):
     """The slice at 1e4 N/m with the curves of the three folds."""
-    return script(8).Slice.of(stiff_folds, 1e4)
+    return script(8).Slice.of(script(8).softened(stiff_folds), 1e4)
 
 
 def assert_folds(folds, expected):
