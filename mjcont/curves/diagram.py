@@ -9,7 +9,7 @@ import numpy as np
 
 from mjcont.curves.collect import Progress, build_branch, completed, ordered_rows, reporter
 from mjcont.curves.continuation import continue_equilibria, find_equilibrium
-from mjcont.curves.walkers import equilibrium_walker
+from mjcont.curves.walkers import Zeros, equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
@@ -39,6 +39,7 @@ def switch_branches(
     point: SpecialPoint,
     bounds: tuple[float, float] | None = None,
     *,
+    zeros: Zeros | None = None,
     progress: Progress | None = None,
     **options: Any,
 ) -> list[Branch]:
@@ -50,6 +51,8 @@ def switch_branches(
         A BP of a branch of equilibria.
     bounds : (low, high), optional
         Range of the parameter; default that of the point's branch.
+    zeros : dict of column to value, or to several values, optional
+        Columns whose passing of a value is located and labelled UZ.
 
     Raises
     ------
@@ -61,7 +64,7 @@ def switch_branches(
     settings = make_settings(options)
     system = _system_at(point, bounds)
     with clock.limited(settings.max_seconds):
-        found = [_through(point, system, t, settings, progress) for t in point.vectors.get("tangents", ())]
+        found = [_through(point, system, t, settings, zeros, progress) for t in point.vectors.get("tangents", ())]
     return [b for b in found if b is not None]
 
 
@@ -87,11 +90,16 @@ def _leave(system: System, x: Array, y: Array, tangent: Array, settings: Setting
 
 
 def _through(
-    point: SpecialPoint, system: System, tangent: Array, settings: Settings, progress: Progress | None
+    point: SpecialPoint,
+    system: System,
+    tangent: Array,
+    settings: Settings,
+    zeros: Zeros | None,
+    progress: Progress | None,
 ) -> Branch | None:
     """Return the branch through a branch point with a given tangent, or None if it cannot be entered."""
     x, y = point.state, system.start_y()
-    walker = equilibrium_walker(system, settings, {})
+    walker = equilibrium_walker(system, settings, zeros or {})
     halves: list[Trace] = []
     for sign in (-1.0, 1.0):
         if halves and halves[0].end.status in (Status.CLOSED, Status.INTERRUPTED):
@@ -149,6 +157,7 @@ def bifurcation_diagram(
     *,
     keyframes: Sequence[str] = (),
     max_branches: int = 50,
+    zeros: Zeros | None = None,
     progress: Progress | None = None,
     **options: Any,
 ) -> Diagram:
@@ -159,6 +168,7 @@ def bifurcation_diagram(
     starts : a start (dict or point), or several; default the model's own values and pose.
     keyframes : further starts by keyframe, all at the first start's parameters, or the model's without one.
     max_branches : limit on the number of branches.
+    zeros : columns whose passing of a value, or of several, is located and labelled UZ.
     """
     first: Sequence[Any] = [starts] if starts is None or isinstance(starts, Mapping | Point) else list(starts)
     if not first and not keyframes:
@@ -171,7 +181,7 @@ def bifurcation_diagram(
     reached = ""
     try:
         with clock.limited(make_settings(options).max_seconds):
-            reached = _reach(problem, parameter, bounds, tries, branches, max_branches, progress, options)
+            reached = _reach(problem, parameter, bounds, tries, branches, max_branches, zeros, progress, options)
     except clock.TimeUp:
         reached = f"the limit of {make_settings(options).max_seconds:g} s was reached"
     return Diagram(tuple(branches), (reached,) if reached else ())
@@ -184,6 +194,7 @@ def _reach(
     tries: Sequence[tuple[Any, str | None]],
     branches: list[Branch],
     max_branches: int,
+    zeros: Zeros | None,
     progress: Progress | None,
     options: Mapping[str, Any],
 ) -> str:
@@ -194,7 +205,8 @@ def _reach(
         located = isinstance(start, SpecialPoint) and start.converged and keyframe is None
         point = start if located else find_equilibrium(problem, start, keyframe=keyframe)
         if not any(covers(b, point) for b in branches):
-            branches.append(continue_equilibria(problem, parameter, bounds, point, progress=progress, **options))
+            given = {"zeros": zeros, "progress": progress, **options}
+            branches.append(continue_equilibria(problem, parameter, bounds, point, **given))
     queue = [p for b in branches for p in b.of_kind("BP")]
     done: list[SpecialPoint] = []
     while queue and not any(b.interrupted for b in branches):
@@ -202,7 +214,7 @@ def _reach(
         if any(_same(problem, point, other, bounds or point.free[parameter]) for other in done):
             continue
         done.append(point)
-        for branch in _new_branches(point, branches, bounds, progress, options):
+        for branch in _new_branches(point, branches, bounds, zeros, progress, options):
             if len(branches) >= max_branches:
                 return f"the limit of {max_branches} branches was reached"
             branches.append(branch)
@@ -214,6 +226,7 @@ def _new_branches(
     point: SpecialPoint,
     branches: Sequence[Branch],
     bounds: tuple[float, float] | None,
+    zeros: Zeros | None,
     progress: Progress | None,
     options: Mapping[str, Any],
 ) -> Iterator[Branch]:
@@ -225,7 +238,7 @@ def _new_branches(
         probes = [_as_point(system, s) for s in sides if not isinstance(s, Refused)]
         if probes and all(any(covers(b, p) for b in branches) for p in probes):
             continue
-        branch = _through(point, system, tangent, settings, progress)
+        branch = _through(point, system, tangent, settings, zeros, progress)
         if branch is not None:
             yield branch
 
