@@ -41,7 +41,7 @@ from mjcont.results.branch import Branch
 
 _SCRIPT = re.compile(r"fig(\d\d)\.py")
 # figures that take longest are started first, so that no processor waits for one of them at the end
-_LONGEST = (8, 11, 13, 15)
+_LONGEST = (15, 11, 8, 9, 2, 12, 14)
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,7 +189,7 @@ def _chosen(figures: Sequence[int] | None) -> list[int]:
 def _draw_all(todo: Sequence[int | str], out: Path, stamps: dict[int | str, str], jobs: int) -> Iterator[FigureResult]:
     """Draw figures in processes of their own, so that one that crashes harms no other; yield each as it ends."""
     context = multiprocessing.get_context("spawn")
-    waiting = sorted(todo, key=lambda n: n not in _LONGEST)
+    waiting = sorted(todo, key=lambda n: _LONGEST.index(n) if n in _LONGEST else len(_LONGEST))
     running: dict[Any, tuple[int | str, Any]] = {}
     try:
         while waiting or running:
