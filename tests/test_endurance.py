@@ -54,6 +54,7 @@ def processor_seconds(function: Callable[[], object]) -> float:
     return min(once() for _ in range(3))
 
 
+@pytest.mark.long
 def test_a_hundred_thousand_rows_are_saved_and_loaded_in_a_second_and_drawn_in_three() -> None:
     branch = long_branch()
     with tempfile.TemporaryDirectory() as folder:

@@ -169,6 +169,7 @@ def findings_hold(figure, out):
     return len(findings)
 
 
+@pytest.mark.long
 def test_findings_of_figure_14(tmp_path):
     assert findings_hold("14", tmp_path) == 7
 

@@ -107,6 +107,7 @@ def reference_passages(c_sp, duration):
     return load(found.t_events[0])
 
 
+@pytest.mark.long
 def test_the_swept_load_takes_the_heavily_damped_mechanism_overcentre_where_it_does_by_hand(heavy):
     found = script(2).passages(script(2).cycle(heavy))[:, 1]
     assert found == pytest.approx(reference_passages(10.0, 360.0), abs=3e-3)
