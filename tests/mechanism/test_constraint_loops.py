@@ -56,7 +56,7 @@ def folds(name, closure, stiffness):
     return np.array(sorted((p["crank"] - start, p["M"]) for p in branch.of_kind("LP")))
 
 
-@pytest.mark.parametrize("stiffness", [1e4, pytest.param(1e5, marks=LONG), pytest.param(1e6, marks=LONG), pytest.param(1e7, marks=LONG)])
+@pytest.mark.parametrize("stiffness", [1e4, *(pytest.param(k, marks=LONG) for k in (1e5, 1e6, 1e7))])
 @pytest.mark.parametrize("closure", ["native", "bush"])
 @pytest.mark.parametrize("name", LINKAGES)
 def test_folds_are_those_of_the_equations_written_by_hand(name, closure, stiffness):
