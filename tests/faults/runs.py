@@ -73,12 +73,22 @@ def litter(folder: Path) -> list[str]:
 
 
 def alive(group: int) -> bool:
-    """Whether a process of a group is there."""
+    """Whether a process of a group runs; one that has ended may wait to be collected by whoever inherited it."""
     try:
         os.killpg(group, 0)
     except ProcessLookupError:
         return False
-    return True
+    states = [_state(p, group) for p in Path("/proc").glob("[0-9]*")]
+    return any(s not in ("", "Z", "X") for s in states) if states else True
+
+
+def _state(process: Path, group: int) -> str:
+    """Return the letter for what a process of a group does, empty for others and where it cannot be read."""
+    try:
+        state, _, its_group = (process / "stat").read_text().rpartition(")")[2].split()[:3]
+    except OSError:
+        return ""
+    return state if int(its_group) == group else ""
 
 
 # -- kills -----------------------------------------------------------------------------------------------------
