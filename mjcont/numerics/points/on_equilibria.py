@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -44,6 +45,10 @@ _CLOSE = 1e-6
 _SMALL = 1e-4
 _SAME_PAIR = 0.7
 _BRACKET = 1e-9
+# where in a step it is asked whether an oscillation without damping at its end is one beside it, too
+_JUST_INSIDE = 0.1
+# the zero eigenvalue of a fold is a double one where w . v is this small a part of |w| |v|
+_DOUBLE = 1e-5
 
 
 def square_system(system: System, conditions: Sequence[Any], at: Corrected) -> tuple[System, Array]:
@@ -144,7 +149,9 @@ def fold_detector(system: System, settings: Settings) -> ZeroDetector:
         if abs(w @ f_p) <= _NOT_TRANSVERSE * (np.abs(w) @ np.abs(f_p)):
             return None
         v = oriented(v / np.linalg.norm(v))
-        w = w / (w @ v) if abs(w @ v) > 1e-12 * np.linalg.norm(w) else w / np.linalg.norm(w)
+        if not abs(w @ v) > _DOUBLE * np.linalg.norm(w):
+            return {"a": math.nan, "v": v, "w": w / np.linalg.norm(w)}, "the eigenvalue zero is double: no coefficient a"
+        w = w / (w @ v)
         a = normalform.fold_coefficient(c.local, v, w)
         return {"a": a, "v": v, "w": w}, ""
 
@@ -240,7 +247,7 @@ class HopfDetector:
             middle = advance(self.system, old, 0.5 * (new.s - old.s), self.settings)
             if not isinstance(middle, Refused):
                 return self._halves(old, middle, new, found)
-        if self._undamped(old) or self._undamped(new):
+        if self._undamped(old, new, _JUST_INSIDE) or self._undamped(new, old, 1.0 - _JUST_INSIDE):
             return Found([self._meeting(old, new)])
         result = bisect(self.system, old, new, self._differs, self._settle, self.settings)
         if result is None:
@@ -259,11 +266,16 @@ class HopfDetector:
             every = Found([*every.located, *here.located], [*every.neutral, *here.neutral])
         return every
 
-    @staticmethod
-    def _undamped(point: CurvePoint) -> bool:
-        """Whether a complex pair lies on the axis as far as can be told: no Hopf condition singles it out."""
-        s = spectrum_of(point)
-        return bool(np.any((s.eigenvalues.imag > 0) & (np.abs(s.eigenvalues.real) <= s.noise)))
+    def _undamped(self, end: CurvePoint, other: CurvePoint, fraction: float) -> bool:
+        """Whether a complex pair lies on the axis at one end of a step and beside it: no Hopf condition singles it out.
+
+        At one end alone it is a Hopf point on which a point of the curve happens to lie.
+        """
+        if not _on_axis(spectrum_of(end)):
+            return False
+        old, new = (end, other) if end.s < other.s else (other, end)
+        beside = approximate(self.system, old, new, fraction, self.settings)
+        return beside.failure is None and _on_axis(local_spectrum(beside.local))
 
     def _meeting(self, old: CurvePoint, new: CurvePoint) -> Located:
         """Return where undamped pairs meet and leave the axis, bracketed."""
@@ -319,6 +331,11 @@ class MultipleDetector:
             old, new = (middle, new) if self._unstable(middle) == before else (old, middle)
         note = f"{abs(count)} eigenvalues of K vanish together: a point of higher multiplicity, bracketed only"
         return Found([Located("BP", new, new.s - old.s, False, {"type": "multiple"}, note)])
+
+
+def _on_axis(s: Spectrum) -> bool:
+    """Whether a complex pair lies on the axis as far as can be told."""
+    return bool(np.any((s.eigenvalues.imag > 0) & (np.abs(s.eigenvalues.real) <= s.noise)))
 
 
 def critical_pairs(s: Spectrum) -> list[tuple[float, float]]:

@@ -53,14 +53,15 @@ class Spectrum:
     def pair_count(self) -> int:
         """Return how many pairs of eigenvalues have a positive sum (complex pairs, and pairs of real ones).
 
-        It changes by one at a Hopf point or a neutral saddle and nowhere else. Complex pairs within the noise of
-        the axis are left out.
+        It changes by one at a Hopf point or a neutral saddle and nowhere else. Pairs whose sum is zero within the
+        noise are left out: undamped oscillations, and the real pairs into which they turn at a fold.
         """
         ev = self.eigenvalues
         pairs = int(np.count_nonzero((ev.imag > 0) & (ev.real > self.noise)))
-        real = ev.real[np.abs(ev.imag) == 0]
-        sums = real[:, None] + real[None, :]
-        return pairs + int(np.count_nonzero(np.triu(sums > 0, 1)))
+        of_real = np.abs(ev.imag) == 0
+        real, noise = ev.real[of_real], self.noise[of_real]
+        sums, unsure = real[:, None] + real[None, :], noise[:, None] + noise[None, :]
+        return pairs + int(np.count_nonzero(np.triu(sums > unsure, 1)))
 
 
 def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spectrum:
