@@ -223,8 +223,8 @@ def _same(problem: Model, a: Point, b: Point, bounds: tuple[float, float]) -> bo
 def covers(branch: Branch, point: Point) -> bool:
     """Whether an equilibrium lies on a branch of equilibria.
 
-    It does where the branch, corrected from the rows around in the plane across its chord, meets that very point. At the
-    point's own parameters a steep branch would be met far from there, and on another one that crosses it.
+    It does where the branch, corrected from the rows around in the plane across its chord, meets that very point. At
+    the point's own parameters a steep branch would be met far from there, and on another one that crosses it.
     """
     problem = branch.model
     ((name, (low, high)),) = branch.free.items()

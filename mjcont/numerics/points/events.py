@@ -186,8 +186,8 @@ class ZeroDetector:
 
     `solve` follows a point near a zero to the zero itself and returns it with the system that it solves, from which
     `finish` has data and a note, or None where it is no such point after all. A test that `counts` changes by whole
-    numbers. `fraction` tells better than a linear function through the test's values where in a step a zero lies. With `vanishes`
-    a zero counts where the test itself is far smaller than at the ends of the step.
+    numbers. `fraction` tells better than a linear function through the test's values where in a step a zero lies. With
+    `vanishes` a zero counts where the test itself is far smaller than at the ends of the step.
     """
 
     kind: str

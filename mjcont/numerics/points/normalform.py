@@ -25,6 +25,9 @@ from mjcont.numerics.equations.differences import FOURTH_ORDER, combine, jacobia
 from mjcont.numerics.equations.problem import Array, Equations, Values
 from mjcont.numerics.equations.system import Local
 
+# a coefficient counts as zero below this, for amplitudes of the state's scale and in the time of the oscillation
+_DEGENERATE = 1e-9
+
 
 def fold_coefficient(local: Local, v: Array, w: Array) -> float:
     """Return a for null vectors in physical units (any length)."""
@@ -107,7 +110,7 @@ class FirstOrder:
 
 
 def first_lyapunov(problem: Equations, x: Array, values: Values, omega: float) -> float:
-    """Return l1 at a Hopf point of frequency omega.
+    """Return l1 at a Hopf point of frequency omega, zero where rounding alone is left of it.
 
     |q| = 1 in the unknowns of a first-order problem, in the positions of a second-order one.
     """
@@ -125,7 +128,8 @@ def first_lyapunov(problem: Equations, x: Array, values: Values, omega: float) -
     h11 = solve(jac, b)
     h20 = solve(2j * omega * identity - jac, form.second(q, q))
     total = c - 2.0 * form.second(q, h11) + form.second(q.conj(), h20)
-    return float(np.real(np.vdot(p, total)) / (2.0 * omega))
+    found = float(np.real(np.vdot(p, total)) / (2.0 * omega))
+    return 0.0 if abs(found) < _DEGENERATE * form.size(q) ** 2 else found
 
 
 def eigenvectors(jac: Array, omega: float) -> tuple[Array, Array]:

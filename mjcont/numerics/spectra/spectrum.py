@@ -144,6 +144,15 @@ def quadratic_eigenvalues(mass: Array, damping: Array, stiffness: Array) -> Arra
     return found
 
 
+def companion(mass: Array, damping: Array, stiffness: Array) -> Array:
+    """Return the matrix of the first-order form of s^2 M + s C + K, (2 n, 2 n)."""
+    n = len(mass)
+    both = solve(mass, np.concatenate([stiffness, damping], axis=-1))
+    out = np.zeros((2 * n, 2 * n))
+    out[:n, n:], out[n:] = np.eye(n), -both
+    return out
+
+
 def conservative_spectra(pencils: Sequence[Pencil]) -> list[Spectrum]:
     """Return the spectra of pencils that are known to have a symmetric K and a symmetric, semidefinite C."""
     k = np.array([p.stiffness for p in pencils])

@@ -33,6 +33,7 @@ class Filled(OneByOne):
     _leaps: list[Leap] = field(default_factory=list, init=False)
 
     def __post_init__(self) -> None:
+        OneByOne.__post_init__(self)
         self._long = LongSteps(self.system, self.settings, negative_stiffness)
 
     def begin(self, start: CurvePoint) -> float:

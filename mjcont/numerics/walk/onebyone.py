@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
+from mjcont.numerics.points.balance import Balance, Piece, multiple
 from mjcont.numerics.points.corner import NEAR, cross
 from mjcont.numerics.points.events import Detector, Found, Located
 from mjcont.numerics.step.arclength import CurvePoint, advance, aim, by_contraction, follows, land, next_step, predict
@@ -22,6 +23,8 @@ from mjcont.numerics.walk.steps import End, Leap, Status, Step
 _SMALL_FOLDS = 1e-5
 # a fold this near to a branch point is the same point: a pitchfork's turning side branch
 _SAME_AS_BRANCH = 1e-5
+# kinds of points that hold eigenvalues on the axis
+_HOLDING = ("BP", "LP", "HB")
 # parts of a refused step that are tried next; corrections after which derivatives are taken at the prediction; along a
 # locus, whose matrices are not extrapolated, contraction that tells that they turn with the mechanism
 _SHORTER, _MANY, _STALE = 0.4, 4, 0.25
@@ -40,6 +43,10 @@ class OneByOne:
     settings: Settings
     detectors: Sequence[Detector] = ()
     _fresh: bool = field(default=False, init=False)
+    _balance: Balance = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._balance = Balance(self.system, self.settings)
 
     def begin(self, start: CurvePoint) -> float:
         """Return the length of the first step from a start."""
@@ -119,9 +126,25 @@ class OneByOne:
 
     def between(self, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector]) -> Found | Refused:
         """Return the special points between two points of the curve in order, or why the step is to be shorter."""
+        structural = any(d.structural for d in detectors)
+        located, neutral = list[Located](), list[Located]()
+        for piece in self._balance.pieces(old, new) if structural else [Piece(old, new)]:
+            found = self._inside(piece, detectors)
+            if isinstance(found, Refused):
+                return found
+            located += found.located
+            neutral += found.neutral
+        if not located and new.s - old.s > _SMALL_FOLDS and may_turn_beyond(self.system, old, new):
+            return Refused(Why.TURNS_TWICE, "a parameter may turn beyond its bound")
+        return Found(located, neutral)
+
+    @staticmethod
+    def _inside(piece: Piece, detectors: Sequence[Detector]) -> Found | Refused:
+        """Return the special points in a piece of a step in order, or why the step is to be shorter."""
         located, neutral = list[Located](), list[Located]()
         for detector in detectors:
-            found = detector.locate(old, new, located) if detector.crossed(old, new) else Found()
+            crossed = not (piece.quiet and detector.structural) and detector.crossed(piece.old, piece.new)
+            found = detector.locate(piece.old, piece.new, located) if crossed else Found()
             if isinstance(found, Refused):
                 return found
             located += found.located
@@ -131,8 +154,8 @@ class OneByOne:
             folds = [e for e in located if e.kind == "LP"]
             same = [e for e in folds if any(abs(e.point.s - s) <= _SAME_AS_BRANCH for s in branch_points)]
             located = [e for e in located if e not in same]
-        if not located and new.s - old.s > _SMALL_FOLDS and may_turn_beyond(self.system, old, new):
-            return Refused(Why.TURNS_TWICE, "a parameter may turn beyond its bound")
+        if piece.together > sum(e.kind in _HOLDING for e in located):
+            located.append(multiple(piece))
         return Found(sorted(located, key=lambda e: e.point.s), neutral)
 
     def _where(self, point: CurvePoint) -> str:
