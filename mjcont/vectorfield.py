@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from scipy import sparse
@@ -19,6 +20,9 @@ from mjcont.numerics.equations.differences import (
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.model import Model
 from mjcont.results.quantities import Observable, Parameter, default_bounds, finite, finite_array, finite_pair
+
+# a scale is far from the sizes of components by this factor; no component's is below this part of the largest
+_FAR, _LEAST = 20.0, 1e-3
 
 
 class VectorField(Model):
@@ -39,7 +43,8 @@ class VectorField(Model):
     units : mapping of str to str, optional
         Units of parameters and components, by name.
     scale : array_like, (n,), optional
-        Typical size of each component, for arclength and difference steps; default 1.
+        Typical size of each component, for arclength and difference steps. Without it the verbs that follow curves
+        start from 1 and take the sizes that the components are found to have, where these are far from it.
     bounds : mapping of str to (low, high), optional
         Default range of each parameter.
 
@@ -51,7 +56,6 @@ class VectorField(Model):
     """
 
     second_order = False
-    evaluations = 0
     state_labels: list[tuple[str, str]] = []
 
     def __init__(
@@ -76,7 +80,8 @@ class VectorField(Model):
         self.state_scale = np.ones(self.n) if scale is None else finite_array("scale", scale, (self.n,))
         if not np.all(self.state_scale > 0.0):
             raise ParameterError(f"scale must be positive, got {self.state_scale}")
-        self.evaluations = 0
+        self.follows_scale = scale is None
+        self._counted = [0]  # shared with copies of another scale
         units, bounds = units or {}, bounds or {}
         for k in bounds:
             if k not in parameters:
@@ -105,6 +110,24 @@ class VectorField(Model):
             self.parameter(name).check(value)
         return {n: p.value for n, p in self.parameters.items()} | {n: float(v) for n, v in (given or {}).items()}
 
+    @property
+    def evaluations(self) -> int:
+        """Number of evaluations of f so far."""
+        return self._counted[0]
+
+    def rescaled(self, sizes: Array, *, grow: bool = False) -> Self | None:
+        """Return this field with the scale that sizes of its components (n,) tell, unless one was given."""
+        top = float(sizes.max())
+        if not (self.follows_scale and 0.0 < top < np.inf):
+            return None
+        ratio = sizes / self.state_scale
+        if not (np.any(ratio > _FAR) or (not grow and np.all(ratio < 1.0 / _FAR))):
+            return None
+        field = copy.copy(self)
+        # to two digits: no last bit decides; a component that hardly moves tells nothing
+        field.state_scale = np.array([float(f"{max(s, _LEAST * top):.1e}") for s in sizes.tolist()])
+        return field
+
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return the state given, or u0."""
         if keyframe is not None:
@@ -116,7 +139,7 @@ class VectorField(Model):
 
     def residual(self, x: Array, values: Values) -> Array:
         """Return f, (n,); NaN where the function overflows or leaves its domain."""
-        self.evaluations += 1
+        self._counted[0] += 1
         try:
             found = np.array(self.function(x, values), dtype=float)
         except MjcontError:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
@@ -11,6 +11,7 @@ import numpy as np
 from mjcont.curves.collect import Progress, collect, make_point, run_directions, special_point
 from mjcont.curves.walkers import equilibrium_walker, monitor_of, point_stop
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
+from mjcont.numerics.equations.algebra import solve as solve_dense
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import LARGEST_ERROR, Corrected, Start, find_start, solve
 from mjcont.numerics.equations.problem import Array, Values
@@ -22,13 +23,15 @@ from mjcont.numerics.points.on_equilibria import square_system
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.steps import End, Status
-from mjcont.numerics.walk.trace import Walker
+from mjcont.numerics.walk.trace import Trace, Walker
 from mjcont.results.branch import Branch
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint, show
 from mjcont.results.quantities import finite
 
 M = TypeVar("M", bound=Model)
+# how often a curve is followed anew at most, with the scale that its states tell
+_SCALES = 3
 
 
 def check_limits(name: str, ends: Any) -> None:
@@ -144,14 +147,27 @@ def continue_equilibria(
     NameLookupError, BoundsError, StartError, ParameterError
         See their messages. Failure of the continuation itself is no exception but the branch's status.
     """
-    prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
     directions = check_direction(direction)
-    walker = prepared.walker
-    traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
-    branch = collect(
-        "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.notes
-    )
+    for _ in range(_SCALES):
+        prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
+        walker = prepared.walker
+        traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
+        branch = collect(
+            "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.notes
+        )
+        fitting = _fitting(branch, traces)
+        if fitting is None:
+            break
+        problem = fitting
     return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
+
+
+def _fitting(branch: Branch, traces: Sequence[Trace]) -> Model | None:
+    """Return the branch's problem with the scale that its states tell; None where it fits, or a user ended it."""
+    kept = (Status.RUNS_OFF, Status.INTERRUPTED, Status.STOPPED, Status.FAILED)
+    if not branch.model.follows_scale or any(t.end.status in kept for t in traces):
+        return None
+    return branch.model.rescaled(np.abs(branch.states).max(axis=0))
 
 
 def iterate_equilibria(
@@ -233,6 +249,8 @@ def _prepare(
     if notes:
         problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
     found = settled(problem, start if state is keyframe is None else None, x, values)
+    if found.failure is None and problem.follows_scale:
+        problem = problem.rescaled(_sizes_ahead(problem, found.x, values, parameter, high - low), grow=True) or problem
     origin = _start_name(start, keyframe, state)
     if found.failure is not None:
         raise StartError(f"no equilibrium found from {origin}: {found.failure}")
@@ -242,6 +260,17 @@ def _prepare(
     )
     way = {"newton": ", by Newton", "located": ""}.get(found.method, ", by damped motion to rest")
     return _Prepared(walker, found.x, f"from {origin}{way}", notes)
+
+
+def _sizes_ahead(problem: Model, x: Array, values: Values, parameter: str, width: float) -> Array:
+    """Return the sizes of a state's components, (n,), or of what a range of the parameter adds to first order."""
+    local = problem.linearize(x, values, (parameter,))
+    sizes: Array = np.abs(x)
+    if isinstance(local.jac, np.ndarray):
+        ahead = np.abs(solve_dense(local.jac, local.par[:, 0])) * width
+        if np.isfinite(ahead).all():
+            return np.maximum(sizes, ahead)
+    return sizes
 
 
 def hold_rigid_modes(

@@ -172,11 +172,12 @@ def bifurcation_diagram(
         point = start if located else find_equilibrium(problem, start, keyframe=keyframe)
         if not any(covers(b, point) for b in branches):
             branches.append(continue_equilibria(problem, parameter, bounds, point, progress=progress, **options))
+            problem = branches[-1].model if problem.follows_scale else problem
     queue = [p for b in branches for p in b.of_kind("BP")]
     done: list[SpecialPoint] = []
     while queue and not any(b.interrupted for b in branches):
         point = queue.pop(0)
-        if any(_same(problem, point, other, bounds or point.free[parameter]) for other in done):
+        if any(_same(point.model, point, other, bounds or point.free[parameter]) for other in done):
             continue
         done.append(point)
         for branch in _new_branches(point, branches, bounds, progress, options):

@@ -27,7 +27,7 @@ from mjcont.numerics.step.notes import Note
 # noise of eigenvalues in parts of the matrix: of differences of fourth order, of second order, and of eigenvalues
 _FOURTH, _SECOND, _OWN = 1e-11, 1e-10, 1e-12
 # eigenvectors more nearly orthogonal to their left ones than this give no slope
-_DEFECTIVE = 1e-7
+_DEFECTIVE = 1e-5
 # unknowns up to which eigenvalues are followed
 _MANY = 128
 # a cubic whose smallest value is below this part of those at its ends may touch zero; one errs by less than this part
@@ -194,7 +194,7 @@ class Tracks:
 
     Attributes
     ----------
-    errors : (N,) how far the straight line along an eigenvalue's slope at one end misses it at the other.
+    errors : (N,) how far straight lines along the slopes at one end miss the real parts at the other.
     noise : (N,) how near zero a real part says nothing.
     """
 
@@ -258,7 +258,7 @@ def tracks(nodes: Sequence[CurvePoint], i: int) -> Tracks | None:
     start, end = a.values[rows], b.values[columns]
     secant, sure = end - start, a.sure[rows] & b.sure[columns]
     first, last = np.where(sure, start_slope[rows], secant), np.where(sure, end_slope[columns], secant)
-    errors = np.maximum(np.abs(first - secant), np.abs(last - secant))
+    errors = np.maximum(np.abs((first - secant).real), np.abs((last - secant).real))
     return Tracks(start, end, first, last, errors, np.maximum(a.noise[rows], b.noise[columns]))
 
 
