@@ -42,6 +42,8 @@ _IMPERFECT = 1e-8
 _OTHER_BRANCH = Refused(Why.OTHER_BRANCH, "the orientation changes without a branch point: another branch is near")
 _CLOSE = 1e-6
 _BRACKET = 1e-9
+# a coefficient with a larger relative error says so
+_KNOWN = 1e-4
 # where in a step it is asked whether an oscillation without damping at its end is one beside it, too
 _JUST_INSIDE = 0.1
 # the zero eigenvalue of a fold is a double one where w . v is this small a part of |w| |v|
@@ -206,9 +208,10 @@ class HopfDetector:
         if square <= 0:
             return Located("NS", point, c.step, True, {"square": square})
         omega = float(np.sqrt(square))
-        l1 = normalform.first_lyapunov(self.system.problem, c.x, c.local.values, omega)
+        l1, error = normalform.lyapunov_and_error(self.system.problem, c.x, c.local.values, omega)
         kind = "degenerate" if l1 == 0.0 or math.isnan(l1) else "supercritical" if l1 < 0 else "subcritical"
-        return Located("HB", point, c.step, True, {"omega": omega, "l1": l1, "type": kind})
+        note = f"l1 is known to {error:.0e} of itself only" if error > _KNOWN and l1 != 0.0 else ""
+        return Located("HB", point, c.step, True, {"omega": omega, "l1": l1, "type": kind}, note)
 
     @staticmethod
     def _fraction(old: CurvePoint, new: CurvePoint) -> float:
