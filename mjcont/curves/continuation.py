@@ -23,7 +23,7 @@ from mjcont.numerics.points.on_equilibria import square_system
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.steps import End, Status
-from mjcont.numerics.walk.trace import Trace, Walker
+from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint, show
@@ -150,24 +150,26 @@ def continue_equilibria(
     directions = check_direction(direction)
     for _ in range(_SCALES):
         prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
-        walker = prepared.walker
-        traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
-        branch = collect(
-            "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.notes
-        )
-        fitting = _fitting(branch, traces)
+        branch, fitting = _followed(prepared, directions, progress)
         if fitting is None:
             break
         problem = fitting
     return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
 
 
-def _fitting(branch: Branch, traces: Sequence[Trace]) -> Model | None:
-    """Return the branch's problem with the scale that its states tell; None where it fits, or a user ended it."""
+def _followed(
+    prepared: _Prepared, directions: Sequence[float], progress: Progress | None
+) -> tuple[Branch, Model | None]:
+    """Return a branch, and its problem with the scale that its states tell: None where it fits, or a user ended it."""
+    walker = prepared.walker
+    traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
+    branch = collect(
+        "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.notes
+    )
     kept = (Status.RUNS_OFF, Status.INTERRUPTED, Status.STOPPED, Status.FAILED)
     if not branch.model.follows_scale or any(t.end.status in kept for t in traces):
-        return None
-    return branch.model.rescaled(np.abs(branch.states).max(axis=0))
+        return branch, None
+    return branch, branch.model.rescaled(np.abs(branch.states).max(axis=0))
 
 
 def iterate_equilibria(

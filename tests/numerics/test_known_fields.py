@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
+from problems.fields import ab
 from problems.knownfields import run
 
 import mjcont as mc
@@ -134,3 +136,42 @@ def test_a_diagram_has_both_of_two_steep_lines_that_cross_at_a_small_angle(slope
 
     field = mc.VectorField(f, [one * -3.21], {"p": -2.9})
     assert len(mc.bifurcation_diagram(field, "p", bounds=(-3.0, 3.0))) == 2
+
+
+# -- scale --------------------------------------------------------------------------------------------------------
+
+
+def ab_times(size):
+    """Return the branch of `ab` with its state multiplied by a size."""
+    plain = ab(18.0)
+    f = plain.function
+    given = {name: p.value for name, p in plain.parameters.items()}
+    field = mc.VectorField(lambda u, p: size * np.asarray(f(np.asarray(u) / size, p)), size * plain.u0, given)
+    return mc.continue_equilibria(field, "D", bounds=(0.0, 0.6))
+
+
+@pytest.mark.parametrize("size", [1e-3, 1e-2, 1e2, 1e3])
+def test_points_and_coefficients_do_not_depend_on_the_units_of_the_state(size):
+    plain, other = ab_times(1.0), ab_times(size)
+    for one, two in zip(plain.special_points, other.special_points, strict=True):
+        assert (two.kind, two["D"]) == (one.kind, pytest.approx(one["D"], rel=1e-10))
+        power = {"LP": ("a", 1), "HB": ("l1", 2)}[one.kind]
+        assert two.coefficients[power[0]] * size ** power[1] == pytest.approx(one.coefficients[power[0]], rel=1e-6)
+
+
+@pytest.mark.parametrize("own", [False, True])
+@pytest.mark.parametrize("width", [1.0, 0.1, 0.01])
+def test_the_coefficient_of_a_steep_field_is_known_whatever_its_width(width, own):
+    # the growth w sin(u / w) - u has the cubic -u^3 / (6 w^2): l1 = -3/2 / (6 w^2), as for -u^3
+    def f(u, p):
+        bend = [width * math.sin(v / width) - v for v in u]
+        return [p["p"] * u[0] - u[1] + bend[0], u[0] + p["p"] * u[1] + bend[1]]
+
+    def derivative(u, p):
+        bend = [math.cos(v / width) - 1.0 for v in u]
+        return [[p["p"] + bend[0], -1.0], [1.0, p["p"] + bend[1]]]
+
+    given = {"jacobian": derivative} if own else {}
+    field = mc.VectorField(f, [0.0, 0.0], {"p": -0.3}, **given)
+    (hopf,) = mc.continue_equilibria(field, "p", bounds=(-1.0, 1.0)).special_points
+    assert hopf.coefficients["l1"] == pytest.approx(-0.25 / width**2, rel=1e-6)

@@ -3,7 +3,7 @@
 Eigenvalues are followed from one point to the next (`tracks`). Where two reach the axis within a step, in the same
 direction or in opposite ones, or one that turns there, the step is halved between them until each is alone, or until
 they cannot be told apart: they are one multiple point then. What the ends of a step do not show, a bump between them,
-is looked for by the product of the Jacobian with one vector, at two evaluations a place.
+is looked for by the product of the Jacobian with one vector, at one evaluation a place.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _EDGE, _NEAR = 0.02, 1e-4
 # from this part of its distance from the axis on, or of its values at the ends where it passes
 _PLACES, _CHANGES, _STEEPENS = 0.25, 0.3, 0.1
 # difference step of such a product, in scaled unknowns
-_PROBE = 1e-4
+_PROBE = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,9 +197,21 @@ class _Probe:
     def strays(self, t: float, followed: Tracks) -> float:
         """Return by how much an eigenvalue strays at a part of the piece, one where it is worth a point there."""
         x, y, _ = between(self.system, self.old, self.new, t)
-        f = self.system.problem.residuals(x, self.system.values(y), _PROBE * np.array([self.vector, -self.vector]))
         expected = sum(part * t**k for k, part in enumerate(self.along))
-        off = np.abs(self.left @ ((f[0] - f[1]) / (2.0 * _PROBE) - expected))
+
+        def beside(step: float) -> Array:
+            found: Array = self.system.problem.residuals(x, self.system.values(y), step * self.vector[None])[0]
+            return found
+
+        ahead = beside(_PROBE)
+        share = self._share(ahead / _PROBE - expected, t, followed)
+        if share <= 1.0:  # f is nearly zero at the place itself; where this shows something the other side makes sure
+            return share
+        return self._share((ahead - beside(-_PROBE)) / (2.0 * _PROBE) - expected, t, followed)
+
+    def _share(self, change: Array, t: float, followed: Tracks) -> float:
+        """Return by how much an eigenvalue strays for a change of J r."""
+        off = np.abs(self.left @ change)
         if not np.all(np.isfinite(off)):
             return 0.0
         ends = np.maximum(np.abs(followed.start), np.abs(followed.end))

@@ -269,11 +269,11 @@ def _slopes(nodes: Sequence[CurvePoint], i: int, at: int) -> Array:
     assert motion is not None and motion.modes is not None
     own, s = motion.modes, nodes[at].s
     change = np.zeros_like(own.matrix)
-    others = [(q, m) for q, m in every if q != s and m.matrix.shape == change.shape]
-    for q, m in others:
+    others = [(q, modes) for q, modes in every if q != s and modes.matrix.shape == change.shape]
+    for q, modes in others:
         weight = 1.0 / (q - s)
         for r, _ in others:
             weight *= (s - r) / (q - r) if r != q else 1.0
-        change = change + weight * (m.matrix - own.matrix)
+        change = change + weight * (modes.matrix - own.matrix)
     found: Array = np.einsum("ij,ij->j", own.left.conj(), change @ own.right)
     return np.where(np.isfinite(found), found, 0.0)
