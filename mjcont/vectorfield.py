@@ -23,6 +23,8 @@ from mjcont.results.quantities import Observable, Parameter, default_bounds, fin
 
 # a scale is far from the sizes of components by this factor; no component's is below this part of the largest
 _FAR, _LEAST = 20.0, 1e-3
+# components all below this part of the scale are zero, as far as equations without a scale can tell
+_NOTHING = 1e-8
 
 
 class VectorField(Model):
@@ -121,6 +123,8 @@ class VectorField(Model):
         if not (self.follows_scale and 0.0 < top < np.inf):
             return None
         ratio = sizes / self.state_scale
+        if not np.any(ratio > _NOTHING):  # rest at zero, but for rounding
+            return None
         if not (np.any(ratio > _FAR) or (not grow and np.all(ratio < 1.0 / _FAR))):
             return None
         field = copy.copy(self)

@@ -231,6 +231,10 @@ CASES = {
     "differences.length_of": lambda b: differences.length_of(b.x, b.v),
     "differences.directional": lambda b: differences.directional(b.problem, b.x, b.values, 0.0 * b.v, 3),
     "differences.combine": lambda b: differences.combine(lambda rows: rows, b.v, 2, 1e-2),
+    "differences.settled_combine": lambda b: [
+        differences.settled_combine(lambda rows, fill=fill: np.full((len(rows), b.n), fill), b.v, 2, 1e-2)
+        for fill in (0.0, math.nan, math.inf)
+    ],
     "differences.second_form": lambda b: differences.second_form(b.problem, b.x, b.values, b.v, 0.0 * b.v),
     "differences.bilinear_gradient": lambda b: differences.bilinear_gradient(b.problem, b.x, b.values, b.x, b.x),
     "on_equilibria.square_system": lambda b: on_equilibria.square_system(b.system, [b.fold()], b.corrected),
@@ -292,6 +296,7 @@ CASES = {
     "newton.find_start": lambda b: newton.find_start(b.problem, b.x, b.values),
     "normalform.fold_coefficient": lambda b: normalform.fold_coefficient(b.local, b.x, b.x),
     "normalform.cusp_coefficient": lambda b: normalform.cusp_coefficient(b.local, b.x, b.x),
+    "normalform.lyapunov_and_error": lambda b: normalform.lyapunov_and_error(b.problem, b.x, b.values, 0.0),
     "normalform.first_lyapunov": lambda b: normalform.first_lyapunov(b.problem, b.x, b.values, 0.0),
     "normalform.eigenvectors": lambda b: normalform.eigenvectors(np.zeros((b.n, b.n)), math.nan),
     "normalform.double_zero_coefficients": lambda b: normalform.double_zero_coefficients(b.problem, b.x, b.values),
