@@ -11,7 +11,6 @@ import numpy as np
 from mjcont.curves.collect import Progress, collect, make_point, run_directions, special_point
 from mjcont.curves.walkers import equilibrium_walker, monitor_of, point_stop
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
-from mjcont.numerics.equations.algebra import solve as solve_dense
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import LARGEST_ERROR, Corrected, Start, find_start, solve
 from mjcont.numerics.equations.problem import Array, Values
@@ -252,7 +251,7 @@ def _prepare(
         problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
     found = settled(problem, start if state is keyframe is None else None, x, values)
     if found.failure is None and problem.follows_scale:
-        problem = problem.rescaled(_sizes_ahead(problem, found.x, values, parameter, high - low), grow=True) or problem
+        problem = problem.rescaled(np.abs(found.x), grow=True) or problem
     origin = _start_name(start, keyframe, state)
     if found.failure is not None:
         raise StartError(f"no equilibrium found from {origin}: {found.failure}")
@@ -262,17 +261,6 @@ def _prepare(
     )
     way = {"newton": ", by Newton", "located": ""}.get(found.method, ", by damped motion to rest")
     return _Prepared(walker, found.x, f"from {origin}{way}", notes)
-
-
-def _sizes_ahead(problem: Model, x: Array, values: Values, parameter: str, width: float) -> Array:
-    """Return the sizes of a state's components, (n,), or of what a range of the parameter adds to first order."""
-    local = problem.linearize(x, values, (parameter,))
-    sizes: Array = np.abs(x)
-    if isinstance(local.jac, np.ndarray):
-        ahead = np.abs(solve_dense(local.jac, local.par[:, 0])) * width
-        if np.isfinite(ahead).all():
-            return np.maximum(sizes, ahead)
-    return sizes
 
 
 def hold_rigid_modes(
