@@ -43,7 +43,7 @@ test: env ## lint, rooms, types and tests
 test-long: env ## the tests that take minutes
 	$(BIN)/pytest -q -n auto -m "long and not thirdparty"
 
-test-fuzz: env ## hundreds of random problems, seeds printed where one fails (seconds each)
+test-fuzz: env ## many random problems whose special points and stability are known, seeds printed
 	$(BIN)/pytest -q -n auto -m fuzz
 
 test-shaken: env ## special points and stability under noise as large as rounding, ten seeds (one: SEED=3)

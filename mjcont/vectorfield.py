@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from scipy import sparse
@@ -31,6 +32,11 @@ from mjcont.results.quantities import (
     told_apart,
 )
 
+# a scale is far from the sizes of components by this factor; no component's is below this part of the largest
+_FAR, _LEAST = 20.0, 1e-3
+# components all below this part of the scale are zero, as far as equations without a scale can tell
+_NOTHING = 1e-8
+
 
 class VectorField(Model):
     """The first-order system u' = f(u, p) with named parameters.
@@ -50,7 +56,8 @@ class VectorField(Model):
     units : mapping of str to str, optional
         Units of parameters and components, by name.
     scale : array_like, (n,), optional
-        Typical size of each component, for arclength and difference steps; default 1.
+        Typical size of each component, for arclength and difference steps. Without it the verbs that follow curves
+        start from 1 and take the sizes that the components are found to have, where these are far from it.
     bounds : mapping of str to (low, high), optional
         Default range of each parameter.
 
@@ -86,7 +93,9 @@ class VectorField(Model):
         self.state_scale = np.ones(self.n) if scale is None else finite_array("scale", scale, (self.n,))
         if not np.all(self.state_scale > 0.0):
             raise ParameterError(f"scale must be positive, got {self.state_scale}")
-        self._counts: dict[int, int] = {}  # by thread: what one computes costs what that one evaluates
+        self.follows_scale = scale is None
+        # by thread: what one computes costs what that one evaluates; shared with copies of another scale
+        self._counts: dict[int, int] = {}
         units, bounds = units or {}, bounds or {}
         for k in bounds:
             if k not in parameters:
@@ -116,6 +125,21 @@ class VectorField(Model):
         for name, value in (given or {}).items():
             self.parameter(name).check(value)
         return {n: p.value for n, p in self.parameters.items()} | {n: float(v) for n, v in (given or {}).items()}
+
+    def rescaled(self, sizes: Array, *, grow: bool = False) -> Self | None:
+        """Return this field with the scale that sizes of its components (n,) tell, unless one was given."""
+        top = float(sizes.max())
+        if not (self.follows_scale and 0.0 < top < np.inf):
+            return None
+        ratio = sizes / self.state_scale
+        if not np.any(ratio > _NOTHING):  # rest at zero, but for rounding
+            return None
+        if not (np.any(ratio > _FAR) or (not grow and np.all(ratio < 1.0 / _FAR))):
+            return None
+        field = copy.copy(self)
+        # to two digits: no last bit decides; a component that hardly moves tells nothing
+        field.state_scale = np.array([float(f"{max(s, _LEAST * top):.1e}") for s in sizes.tolist()])
+        return field
 
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return the state given, or u0."""

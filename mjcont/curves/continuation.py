@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
@@ -31,6 +31,8 @@ from mjcont.results.points import Point, SpecialPoint, show
 from mjcont.results.quantities import column_of, meant_each
 
 M = TypeVar("M", bound=Model)
+# how often a curve is followed anew at most, with the scale that its states tell
+_SCALES = 3
 
 
 def check_limits(name: str, ends: Any) -> None:
@@ -156,15 +158,30 @@ def continue_equilibria(
     NameLookupError, BoundsError, StartError, ParameterError
         See their messages. Failure of the continuation itself is no exception but the branch's status.
     """
+    directions = check_direction(direction)
     with clock.limited(make_settings(options).max_seconds):
-        prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
-        directions = check_direction(direction)
-        walker = prepared.walker
-        traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
-        branch = collect(
-            "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.notes
-        )
+        for _ in range(_SCALES):
+            prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
+            branch, fitting = _followed(prepared, directions, progress)
+            if fitting is None:
+                break
+            problem = fitting
     return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
+
+
+def _followed(
+    prepared: _Prepared, directions: Sequence[float], progress: Progress | None
+) -> tuple[Branch, Model | None]:
+    """Return a branch, and its problem with the scale that its states tell: None where it fits, or a user ended it."""
+    walker = prepared.walker
+    traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
+    branch = collect(
+        "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.notes
+    )
+    kept = (Status.RUNS_OFF, Status.INTERRUPTED, Status.STOPPED, Status.FAILED)
+    if not branch.model.follows_scale or any(t.end.status in kept for t in traces):
+        return branch, None
+    return branch, branch.model.rescaled(np.abs(branch.states).max(axis=0))
 
 
 def iterate_equilibria(
@@ -260,6 +277,8 @@ def _prepare(
         found = settled(problem, start if state is keyframe is None else None, x, values)
     except clock.TimeUp:
         raise StartError(f"no equilibrium found: the limit of {settings.max_seconds:g} s was reached") from None
+    if found.failure is None and problem.follows_scale:
+        problem = problem.rescaled(np.abs(found.x), grow=True) or problem
     origin = _start_name(problem, start, keyframe, state)
     if found.failure is not None:
         raise _no_start(problem, origin, found.failure)

@@ -13,7 +13,7 @@ from mjcont.curves.walkers import Zeros, equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
 from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
-from mjcont.numerics.equations.newton import correct, solve
+from mjcont.numerics.equations.newton import correct
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings, make_settings
@@ -21,6 +21,7 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint, point_from
+from mjcont.numerics.step.hermite import lagrange
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace, time_up, trace
 from mjcont.results.branch import Branch, Diagram
@@ -32,6 +33,8 @@ _OFFSET = 1e-2
 _SAME = 1e-5
 # arclengths are sums over steps: those of halves that are images of each other agree to this part
 _AS_LONG = 1e-3
+# rows nearer to each other than this part of their distances are a cluster
+_CLUSTER = 0.05
 
 
 @np.errstate(all="ignore")
@@ -207,11 +210,12 @@ def _reach(
         if not any(covers(b, point) for b in branches):
             given = {"zeros": zeros, "progress": progress, **options}
             branches.append(continue_equilibria(problem, parameter, bounds, point, **given))
+            problem = branches[-1].model if problem.follows_scale else problem
     queue = [p for b in branches for p in b.of_kind("BP")]
     done: list[SpecialPoint] = []
     while queue and not any(b.interrupted for b in branches):
         point = queue.pop(0)
-        if any(_same(problem, point, other, bounds or point.free[parameter]) for other in done):
+        if any(_same(point.model, point, other, bounds or point.free[parameter]) for other in done):
             continue
         done.append(point)
         for branch in _new_branches(point, branches, bounds, zeros, progress, options):
@@ -256,22 +260,44 @@ def _same(problem: Model, a: Point, b: Point, bounds: tuple[float, float]) -> bo
 
 
 def covers(branch: Branch, point: Point) -> bool:
-    """Whether an equilibrium lies on a branch of equilibria: near one of its chords, and equal when solved for."""
+    """Whether an equilibrium lies on a branch of equilibria.
+
+    It does where the branch, corrected from the rows around in the plane across its chord, meets that very point. At
+    the point's own parameters a steep branch would be met far from there, and on another one that crosses it.
+    """
     problem = branch.model
     ((name, (low, high)),) = branch.free.items()
-    target = (point.parameters[name] - branch[name]) / (high - low)
-    scale = problem.state_scale
-    steps = problem.difference_each(point.state, branch.states) / scale
-    z = np.column_stack([steps, target])
+    free = Free(name, low, high)
+    system = System(problem, point.parameters, [free])
+    at, column = system.start_y(), np.array([[free.coordinate(v)] for v in branch[name].tolist()])
+    z = np.column_stack([problem.difference_each(point.state, branch.states) / problem.state_scale, at - column])
     chords = z[:-1] - z[1:]
     lengths = np.linalg.norm(chords, axis=1)
     along = np.clip(np.einsum("ij,ij->i", z[:-1], chords) / np.maximum(lengths**2, 1e-300), 0.0, 1.0)
     aside = np.linalg.norm(z[:-1] - along[:, None] * chords, axis=1)
-    for i in np.flatnonzero(aside < 0.05 * lengths + 1e-9):
-        chord = problem.difference(branch.states[i + 1], branch.states[i])
-        x = problem.retract(branch.states[i], along[i] * chord)
-        c = solve(System(problem, point.parameters, ()), x, np.zeros(0), reach=0.1)
-        near = c.failure is None and np.max(np.abs(problem.difference(c.x, point.state)) / scale) < _SAME
-        if near or aside[i] < 1e-7:
+    for i in np.flatnonzero((aside < 0.05 * lengths + 1e-9) & (lengths > 0.0)).tolist():
+        if aside[i] < 1e-7:
+            return True
+        step = _from_row(z, i, float(along[i]))
+        x, y = system.move(branch.states[i], column[i], step)
+        c = correct(system, x, y, chords[i] / lengths[i], None, Settings())
+        if c.failure is None and np.linalg.norm(system.difference(c.x, c.y, point.state, at)) < _SAME:
             return True
     return False
+
+
+def _from_row(z: Array, i: int, fraction: float) -> Array:
+    """Return the step from row i along a part of its chord, on the cubic through the rows around.
+
+    `z` (N, n + 1) are the scaled steps from each row to one point.
+    """
+    first = min(max(i - 1, 0), max(len(z) - 4, 0))
+    near = z[first : first + 4]
+    steps = np.linalg.norm(np.diff(near, axis=0), axis=1)
+    if len(near) < 4 or steps.min() < _CLUSTER * steps.max():
+        straight: Array = fraction * (z[i] - z[i + 1])
+        return straight
+    s = np.append(0.0, np.cumsum(steps))
+    weights = lagrange(s.tolist(), float(s[i - first] + fraction * steps[i - first]))
+    found: Array = z[i] - np.asarray(weights) @ near
+    return found

@@ -13,7 +13,6 @@ from mjcont.numerics.points.events import Detector
 from mjcont.numerics.points.on_equilibria import (
     BranchPointDetector,
     HopfDetector,
-    MultipleDetector,
     fold_detector,
     zero_detector,
 )
@@ -60,7 +59,6 @@ def equilibrium_detectors(
         BranchPointDetector(system, settings),
         fold_detector(system, settings),
         HopfDetector(system, settings),
-        MultipleDetector(system, settings),
     ]
     if system.problem.nonsmooth:
         detectors.append(CornerDetector(system, settings))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Self
 
 from mjcont.errors import BoundsError, MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array, Equations, Values
@@ -29,6 +29,7 @@ class Model(Equations):
     mjcf : its MJCF text, which results carry, or None.
     declared : parameters declared in Python, as results store them.
     constrained : whether springs stand for constraints, of which results carry notes.
+    follows_scale : whether its `state_scale` was not given, so that curves tell it (see `rescaled`).
     """
 
     name: str
@@ -38,6 +39,7 @@ class Model(Equations):
     mjcf: str | None = None
     declared: Mapping[str, Any] = {}
     constrained: bool = False
+    follows_scale: bool = False
 
     @property
     @abstractmethod
@@ -55,6 +57,14 @@ class Model(Equations):
     def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
         """Return all observables for states (m, nq), a parameter having a value of its own in each (m,)."""
         return self.measure(states, [{**values, name: v} for v in column.tolist()])
+
+    def rescaled(self, sizes: Array, *, grow: bool = False) -> Self | None:
+        """Return this model with a scale that fits sizes of its state (n,); None where it fits or was given.
+
+        With `grow` a scale only becomes larger: what is seen at one point is no more than a part.
+        """
+        del sizes, grow
+        return None
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`."""

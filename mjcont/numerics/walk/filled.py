@@ -119,7 +119,7 @@ class Filled(OneByOne):
         located, neutral = list[Located](), list[Located]()
         for i, j in self._long.spans(leap.old, leap.new, inside):
             follows(every[j], every[i])
-            found = look(self.system, every[i], every[j], self.detectors)
+            found = look(self.system, every[i], every[j], self.detectors, self.settings)
             if isinstance(found, Refused):
                 return replace(found, shorter=_SHORTER * leap.h)
             located += found.located
@@ -128,7 +128,7 @@ class Filled(OneByOne):
                 tell(every[i], every[i + 1 : j], every[j])
         others = [d for d in self.detectors if not d.structural]
         for a, b in itertools.pairwise(every) if others else ():
-            found = look(self.system, a, b, others)
+            found = look(self.system, a, b, others, self.settings)
             if isinstance(found, Refused):
                 return replace(found, shorter=_SHORTER * leap.h)
             located += found.located

@@ -133,7 +133,7 @@ class OneByOne:
         if not self.system.conditions and h > SMALL_FOLDS and may_turn_twice(self.system, old, new, 0):
             return Refused(Why.TURNS_TWICE, "the parameter may turn twice", _SHORTER * h)
         follows(new, old)
-        found = look(self.system, old, new, self.detectors)
+        found = look(self.system, old, new, self.detectors, self.settings)
         if isinstance(found, Refused):
             return replace(found, shorter=_SHORTER * h)
         self.learn(leap)
