@@ -21,9 +21,9 @@ _DISABLE = mujoco.mjtDisableBit
 # what numerics and verbs ask of a Mechanism, and no user needs
 ENGINE = frozenset(
     """
-    active admissible constrained difference_each failure first_order held holding holds_straight linearize_along
-    measure_along nonsmooth own_jacobian parameter_stencil passive pencils periods pieces residuals residuals_along
-    retract_each rigid_directions rigid_modes second_order side_by_side writer
+    active admissible constrained declare_again difference_each failure first_order follows_scale held holding
+    holds_straight linearize_along measure_along nonsmooth own_jacobian parameter_stencil passive pencils periods pieces
+    rescaled residuals residuals_along retract_each rigid_directions rigid_modes second_order side_by_side writer
     """.split()
 )
 

@@ -88,6 +88,7 @@ def test_the_search_finds_what_the_uplock_keyframe_flows_to(gear_search):
     assert min(np.abs(t - np.round(t)).max() for t in turns) < 1e-7
 
 
+@pytest.mark.long
 def test_the_same_seed_gives_the_same_list_to_the_bit(gear_search):
     again = find_equilibria(gear_with_gaps(), {"F_ret": 4e5}, region=CLOSED)
     assert np.array_equal([p.state for p in again], [p.state for p in gear_search])

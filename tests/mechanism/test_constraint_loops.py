@@ -193,6 +193,7 @@ def test_a_weight_on_a_rope_by_a_tendon_equality():
     assert check_folds(text, lambda _: linkage, [1e4, 1e5, 1e6, 1e7], (-2.5, 2.5)) >= 2
 
 
+@pytest.mark.long
 def test_an_arm_welded_to_the_crank():
     # the arm has its place (x, z) and turn; its centre of mass lies off the weld, which therefore bends and turns
     centre, tip = (0.3, 0.2), (0.0, 0.6)
