@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from mjcont.numerics.equations.bordered import Factored
 from mjcont.numerics.equations.clock import unlimited
 from mjcont.numerics.equations.newton import solve, solve_linear
 from mjcont.numerics.equations.problem import Array, Equations, Values
@@ -141,18 +140,15 @@ def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array,
 
 
 def _implicit(system: System, local: Local, mass: Any, dt: float) -> Array:
-    """Return the step that solves M dx = dt f(x + dx), by Newton steps; NaN where dt is too large for it.
+    """Return the step that solves M dx = dt f(x + dx), by Newton steps; NaN where these do not settle.
 
-    Steps that are long beside a growing motion damp it and would end at an unstable equilibrium: the determinant of
-    M/dt - df/dx has another sign there. And corrections have to settle: one Newton step alone opens stiff pins by the
-    square of the angle that it turns, or throws what touches off, and what makes up for it at the next one is so much
-    larger than what moves a mechanism near a fold that the motion would wander. The motion of a stiff contact is convex
-    for any dt: steps shortened at the kink, as damped ones are, lead across it.
+    One Newton step alone opens stiff pins by the square of the angle that it turns, or throws what touches off, and
+    what makes up for it at the next one is so much larger than what moves a mechanism near a fold that the motion would
+    wander. The motion of a stiff contact is convex for any dt: steps shortened at the kink, as damped ones are, lead
+    across it.
     """
     problem, scale, x = system.problem, system.problem.state_scale, local.x
     here, dx = local, np.zeros(problem.n)
-    if Factored(mass / dt - local.raw_jac).sign < 0.0:
-        return np.full(problem.n, np.nan)
     for _ in range(_AT_KINKS if problem.nonsmooth else _ELSEWHERE):
         matrix = mass / dt - here.raw_jac
         step = _solved(matrix, here.f - mass @ dx / dt)
