@@ -127,10 +127,11 @@ def cost(name):
     return problem.evaluations, len(branch)
 
 
-# evaluations in all, and per point: 15 % above the median of what five kernels of OpenBLAS cost when they were set.
+# evaluations in all, and per point: 15 % above the median of what five kernels of OpenBLAS cost when they were set; the
+# places where a brusselator's eigenvalues might stray between points (`Balance`) are 14 % of its own, 2,465 in all.
 # Rounding decides how many Newton steps a special point takes at the noise floor, 117 evaluations each for a Hopf point
 # of `ab` (from 3,890 to 4,475 in all).
-CEILINGS = {"ab": (4866, 44.2), "brusselator": (2503, 29.8), "overcentre": (4050, 4.74)}
+CEILINGS = {"ab": (4866, 44.2), "brusselator": (2835, 34.2), "overcentre": (4050, 4.81)}
 
 
 @pytest.mark.parametrize("name", CEILINGS)
