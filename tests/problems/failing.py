@@ -29,7 +29,7 @@ from mjcont.numerics.points import balance, codim2, corner, events, kinds, looki
 from mjcont.numerics.search import box, coordinates, creep, deflation, multistart, spanning
 from mjcont.numerics.spectra import spectrum, stability, tracks
 from mjcont.numerics.step import arclength, hermite, notes, turning
-from mjcont.numerics.walk import between, filled, interior, longsteps, onebyone, trace
+from mjcont.numerics.walk import between, filled, interior, kinks, longsteps, onebyone, trace
 from mjcont.numerics.walk.steps import End
 
 FIELDS = {
@@ -288,6 +288,9 @@ CASES = {
     "kinds.found_on": lambda b: kinds.found_on(""),
     "kinds.holds_eigenvalues": lambda b: kinds.holds_eigenvalues(""),
     "kinds.name_of": lambda b: kinds.name_of(""),
+    "kinks.across": lambda b: kinks.across(b.system, b.point(), 0.0, b.settings),
+    "kinks.broken_off": lambda b: kinks.broken_off(b.system, b.point()),
+    "kinks.at_bound": lambda b: kinks.at_bound(b.system, 0, math.nan).message,
     "longsteps.LongSteps": steps_without_points,
     "notes.Note": lambda b: notes.Note().get(b.point()),
     "onebyone.OneByOne": walk,

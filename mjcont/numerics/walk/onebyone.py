@@ -9,26 +9,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
-from mjcont.numerics.points.corner import NEAR, break_off, cross
-from mjcont.numerics.points.events import Detector, Located
+from mjcont.numerics.points.events import Detector
 from mjcont.numerics.points.looking import SMALL_FOLDS, look
-from mjcont.numerics.step.arclength import (
-    CurvePoint,
-    advance,
-    aim,
-    by_contraction,
-    follows,
-    land,
-    land_beside,
-    next_step,
-    predict,
-)
+from mjcont.numerics.step.arclength import CurvePoint, advance, aim, by_contraction, follows, land, next_step, predict
 from mjcont.numerics.step.turning import may_turn_twice
+from mjcont.numerics.walk.kinks import across, at_bound, broken_off
 from mjcont.numerics.walk.steps import End, Leap, Status, Step
 
 # parts of a refused step that are tried next; corrections after which derivatives are taken at the prediction; along a
@@ -71,32 +59,12 @@ class OneByOne:
             if isinstance(tried, Step):
                 return tried
             h = tried.shorter or 0.0
-            if h < NEAR and not self.system.conditions:
-                crossed = cross(self.system, point, self.settings)
-                if crossed is not None:
-                    return self._crossed(*crossed)
+            crossing = across(self.system, point, h, self.settings)
+            if crossing is not None:
+                return crossing
             if h < self.settings.ds_min:
-                broken = None if self.system.conditions else break_off(self.system, point)
-                if broken is not None:
-                    where = self.system.where(broken.point.y)
-                    return Step([broken], 0.0, End(Status.BREAKS_OFF, f"{broken.note} at {where}"))
-                return End(Status.STEP_TOO_SMALL, f"step below ds_min at {self.system.where(point.y)}: {tried}")
-
-    def _crossed(self, new: CurvePoint, corner: Located) -> Step:
-        """Return the step across a corner; where it leads to a bound, or over it, it ends there."""
-        system = self.system
-        met = np.flatnonzero((new.y <= system.lowest) | (new.y >= system.highest))
-        if not len(met):
-            return Step([corner, new], self.settings.ds)
-        index = int(met[0])
-        bound = float(system.lowest[index] if new.y[index] <= system.lowest[index] else system.highest[index])
-        landed = land_beside(system, new, index, bound, self.settings)
-        items: list[CurvePoint | Located] = [corner] if isinstance(landed, Refused) else [corner, landed]
-        return Step(items, 0.0, self._at_bound(index, bound))
-
-    def _at_bound(self, index: int, bound: float) -> End:
-        p = self.system.free[index]
-        return End(Status.AT_BOUND, f"{p.name} reached its bound {p.show(p.value(bound))}")
+                sentence = f"step below ds_min at {self.system.where(point.y)}: {tried}"
+                return broken_off(self.system, point) or End(Status.STEP_TOO_SMALL, sentence)
 
     def attempt(self, point: CurvePoint, h: float) -> Step | Refused:
         """Return a step of length h with the special points within, or why it is refused."""
@@ -125,7 +93,7 @@ class OneByOne:
             new = land(self.system, point, index, bound, ahead, settings, fresh=True, steady=far)
         if isinstance(new, Refused):
             return replace(new, shorter=_SHORTER * min(h, max(ahead, 0.1 * h)))
-        return Leap(point, new, h, self._at_bound(index, bound))
+        return Leap(point, new, h, at_bound(self.system, index, bound))
 
     def looked(self, leap: Leap) -> Step | Refused:
         """Look for special points within a step, and choose the next."""
