@@ -42,6 +42,7 @@ def test_angle_at_a_fold_equals_the_reference_to_a_millionth_of_a_degree(overcen
     assert math.degrees(found["theta_1"]) == pytest.approx(ELASTIC_FOLDS[k_j][fold][1], abs=1e-6)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("fold", [UPPER, LOWER])
 def test_folds_of_very_stiff_bushes_lie_where_equation_5_has_them(overcentre_branch, fold):
     found = overcentre_branch(k_j=1e10).point(LABELS[fold])

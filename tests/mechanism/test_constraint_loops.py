@@ -13,6 +13,7 @@ import pytest
 from problems.linkages import (
     GRAVITY,
     LINKAGES,
+    QUICK_FIRST,
     Linkage,
     elastic_folds,
     rigid_folds,
@@ -58,12 +59,12 @@ def folds(name, closure, stiffness):
 
 @pytest.mark.parametrize("stiffness", [1e4, *(pytest.param(k, marks=LONG) for k in (1e5, 1e6, 1e7))])
 @pytest.mark.parametrize("closure", ["native", "bush"])
-@pytest.mark.parametrize("name", LINKAGES)
+@pytest.mark.parametrize("name", QUICK_FIRST)
 def test_folds_are_those_of_the_equations_written_by_hand(name, closure, stiffness):
     np.testing.assert_allclose(folds(name, closure, stiffness), by_hand(name, stiffness), rtol=1e-7, atol=1e-8)
 
 
-@pytest.mark.parametrize("name", LINKAGES)
+@pytest.mark.parametrize("name", QUICK_FIRST)
 def test_folds_with_native_constraints_approach_the_rigid_linkage_at_rate_1_over_k(name):
     errors = np.array([folds(name, "native", k) - rigid(name) for k in STIFFNESSES])
     # error = c / K + d / K^2: the rate K times error tends to c, itself at rate 1/K
@@ -74,7 +75,7 @@ def test_folds_with_native_constraints_approach_the_rigid_linkage_at_rate_1_over
 
 @pytest.mark.parametrize("closure", ["native", pytest.param("bush", marks=LONG)])
 @pytest.mark.parametrize("stiffness", [1e4, pytest.param(1e6, marks=LONG)])
-@pytest.mark.parametrize("name", LINKAGES)
+@pytest.mark.parametrize("name", QUICK_FIRST)
 def test_the_verdicts_on_stability_are_those_of_the_energy(name, closure, stiffness):
     # a native constraint adds mass to the fast modes; the number of unstable directions is the energy's all the same
     branch, start = branch_of(name, closure, stiffness)
@@ -91,7 +92,7 @@ def test_the_verdicts_on_stability_are_those_of_the_energy(name, closure, stiffn
 # -- stiffness studies -----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", LINKAGES)
+@pytest.mark.parametrize("name", QUICK_FIRST)
 def test_a_stiffness_study_of_native_constraints_has_the_rigid_linkage_as_its_limit(name):
     branch, start = branch_of(name, "native", 1e6)
     for fold, expected in zip(sorted(branch.of_kind("LP"), key=lambda p: p["crank"]), rigid(name), strict=True):

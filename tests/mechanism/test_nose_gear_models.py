@@ -253,15 +253,15 @@ def test_the_fold_locus_has_its_cusp_at_the_reference_values(retraction):
 
 FULL_FOLDS = [
     # k_j, keyframe and F_ret of the start, F_ret and theta_ov at the fold
-    (1e7, "uplock_above", 20, 31.911491, 49.76012),
+    pytest.param(1e7, "uplock_above", 20, 31.911491, 49.76012, marks=pytest.mark.long),
     (1e6, "uplock_above", 20, 31.908243, 49.74206),
-    (1e5, "uplock_above", 20, 31.876335, 49.56242),
-    (1e7, "uplock_below", 30, 12.627488, -28.54791),
+    pytest.param(1e5, "uplock_above", 20, 31.876335, 49.56242, marks=pytest.mark.long),
+    pytest.param(1e7, "uplock_below", 30, 12.627488, -28.54791, marks=pytest.mark.long),
     (1e6, "uplock_below", 30, 12.650573, -28.49868),
-    (1e5, "uplock_below", 30, 12.877441, -28.00054),
-    (1e7, "uplock_below", 30, 20.817740, -62.91391),
+    pytest.param(1e5, "uplock_below", 30, 12.877441, -28.00054, marks=pytest.mark.long),
+    pytest.param(1e7, "uplock_below", 30, 20.817740, -62.91391, marks=pytest.mark.long),
     (1e6, "uplock_below", 30, 20.819855, -62.87242),
-    (1e5, "uplock_below", 30, 20.840860, -62.45803),
+    pytest.param(1e5, "uplock_below", 30, 20.840860, -62.45803, marks=pytest.mark.long),
     (1e4, "uplock_above", 20, 19.314384, 0.28933),
 ]
 

@@ -42,7 +42,7 @@ def runs(out) -> list[str]:
     return sorted((out / "runs.txt").read_text().split())
 
 
-def test_the_extended_report_has_the_studies_after_the_figures(scripts, tmp_path):
+def test_the_extended_report_has_the_studies_after_the_figures(scripts, here, tmp_path):
     out = tmp_path / "out"
     result = report(out, extended=True, say=quiet)
     assert list(result.findings) == [1, "gale"]
@@ -59,7 +59,7 @@ def test_without_extended_it_is_the_paper_s_report(scripts, tmp_path):
     assert "gale" not in (out / "report.md").read_text()
 
 
-def test_what_is_up_to_date_is_not_run_again_and_a_study_does_not_age_the_figures(scripts, tmp_path):
+def test_what_is_up_to_date_is_not_run_again_and_a_study_does_not_age_the_figures(scripts, here, tmp_path):
     out = tmp_path / "out"
     report(out, say=quiet)
     report(out, extended=True, say=quiet)
@@ -74,7 +74,7 @@ def test_what_is_up_to_date_is_not_run_again_and_a_study_does_not_age_the_figure
 
 
 @pytest.mark.parametrize("name", ["fig01", "gale"])
-def test_only_runs_one(scripts, tmp_path, name):
+def test_only_runs_one(scripts, here, tmp_path, name):
     out = tmp_path / "out"
     report(out, only=name, say=quiet)
     assert runs(out) == [name]

@@ -156,10 +156,12 @@ def assert_folds(folds, expected):
         assert degrees_of(fold, "theta_ov") == pytest.approx(theta_ov, rel=1e-6, abs=6e-6)
 
 
+@pytest.mark.long
 def test_folds_of_the_gear_equal_the_reference_at_its_own_stiffness(stiff_folds):
     assert_folds(stiff_folds, GEAR_FOLDS[1e6])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("k_j", [1e7, 1e5])
 def test_folds_of_the_gear_followed_to_another_stiffness_equal_the_reference(stiff_folds, k_j):
     span = (min(k_j, 1e6) / 1.1, max(k_j, 1e6) * 1.1)

@@ -43,6 +43,7 @@ def test_the_rigid_gear_has_the_cusp_of_the_elastic_one_but_for_the_bushes():
     assert rigid.retraction(0.0, 1.0) == pytest.approx(484766.55, rel=0.005)
 
 
+@pytest.mark.long
 def test_stiffer_bushes_bring_the_unlock_force_to_that_of_rigid_pins():
     gear = mc.Mechanism.from_xml("nose_gear")
     branch = mc.continue_equilibria(gear, "F_ret", start={"F_ret": 2.5e5}, keyframe="uplock_above")

@@ -49,7 +49,7 @@ def quiet(line: str) -> None:
     pass
 
 
-def test_a_finished_figure_is_skipped_until_its_inputs_change(scripts, tmp_path):
+def test_a_finished_figure_is_skipped_until_its_inputs_change(scripts, here, tmp_path):
     out = tmp_path / "out"
 
     def runs() -> int:
@@ -96,33 +96,32 @@ def test_a_failure_of_an_earlier_run_still_counts(scripts, tmp_path, script):
     assert "1 of 2 findings hold in 1 figures; 1 failed, with findings unknown: figure 2." in report
 
 
-def test_figures_that_all_succeed_have_a_plain_headline(scripts, tmp_path):
+def test_figures_that_all_succeed_have_a_plain_headline(scripts, here, tmp_path):
     reproduce([1], tmp_path, say=quiet)
     assert "\n1 of 2 findings hold in 1 figures. mjcont" in (tmp_path / "report.md").read_text()
 
 
-def test_the_command_ends_with_a_status_of_its_own_where_a_figure_failed(scripts, tmp_path, capsys):
+def test_the_command_ends_with_a_status_of_its_own_where_a_figure_failed(scripts, here, tmp_path, capsys):
     (scripts / "fig02.py").write_text(BAD)
     assert cli.main(["reproduce", "-o", str(tmp_path)]) != 0
     assert "1 of 2 findings hold in 1 figures; 1 failed, with findings unknown: figure 2" in capsys.readouterr().out
     assert cli.main(["reproduce", "1", "-o", str(tmp_path)]) == 0
 
 
-@pytest.mark.long
-def test_a_failed_figure_is_drawn_again_the_next_time(scripts, tmp_path):
+def test_a_failed_figure_is_drawn_again_the_next_time(scripts, here, tmp_path):
     (scripts / "fig01.py").write_text(BAD)
     assert reproduce([1], tmp_path, say=quiet).failed == [1]
     (scripts / "fig01.py").write_text(GOOD)
     assert reproduce([1], tmp_path, say=quiet).failed == []
 
 
-def test_a_script_that_draws_nothing_has_failed(scripts, tmp_path):
+def test_a_script_that_draws_nothing_has_failed(scripts, here, tmp_path):
     (scripts / "fig01.py").write_text("def main(out):\n    return []\n")
     result = reproduce([1], tmp_path, say=quiet)
     assert result.figures[1].reason == "fig01.py drew no fig01.png"
 
 
-def test_reports_hold_findings_and_pictures_and_are_the_same_every_time(scripts, tmp_path):
+def test_reports_hold_findings_and_pictures_and_are_the_same_every_time(scripts, here, tmp_path):
     reports = []
     for name in ("a", "b"):
         result = reproduce([1], tmp_path / name, say=quiet)
@@ -138,7 +137,7 @@ def test_reports_hold_findings_and_pictures_and_are_the_same_every_time(scripts,
     assert "| it is blue | red | does not hold |" in markdown
 
 
-def test_a_report_names_the_model_where_a_figure_has_several(scripts, tmp_path):
+def test_a_report_names_the_model_where_a_figure_has_several(scripts, here, tmp_path):
     (scripts / "fig01.py").write_text(GOOD.replace('"1 < 2", True)', '"1 < 2", True, "first & second")'))
     result = reproduce([1], tmp_path, say=quiet)
     markdown = (tmp_path / "report.md").read_text()
@@ -149,7 +148,7 @@ def test_a_report_names_the_model_where_a_figure_has_several(scripts, tmp_path):
     assert "<td>first &amp; second</td>" in result.report.read_text()
 
 
-def test_the_report_covers_figures_of_earlier_runs(scripts, tmp_path):
+def test_the_report_covers_figures_of_earlier_runs(scripts, here, tmp_path):
     (scripts / "fig03.py").write_text(GOOD.replace("fig01", "fig03").replace("Figure 1", "Figure 3"))
     reproduce([1], tmp_path, say=quiet)
     result = reproduce([3], tmp_path, say=quiet)
@@ -157,8 +156,7 @@ def test_the_report_covers_figures_of_earlier_runs(scripts, tmp_path):
     assert "## Figure 1: a line\n" in (tmp_path / "report.md").read_text()
 
 
-@pytest.mark.long
-def test_a_record_that_was_cut_short_is_drawn_again(scripts, tmp_path):
+def test_a_record_that_was_cut_short_is_drawn_again(scripts, here, tmp_path):
     reproduce([1], tmp_path, say=quiet)
     record = tmp_path / "fig01.json"
     record.write_text(record.read_text()[:100])

@@ -15,6 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import pytest
 from scipy.optimize import brentq
 
 GRAVITY = 9.81
@@ -275,3 +276,5 @@ def _rssr_closed(turn):
 RSSR = Linkage(5, _rssr_gap, _rssr_energy, _rssr_closed, start=(0.0, 1e-6, 1e-6, 1e-6, 0.0))
 
 LINKAGES = {"four_bar": FOUR_BAR, "slider_crank": SLIDER_CRANK, "watt_six_bar": WATT_SIX_BAR, "rssr": RSSR}
+# as parameters of tests: those of more bodies, and in space, take seconds each
+QUICK_FIRST = [pytest.param(n, marks=[pytest.mark.long] * (n in ("watt_six_bar", "rssr"))) for n in LINKAGES]

@@ -129,7 +129,13 @@ def test_the_table_has_one_line_for_each_special_point(tmp_path: Path) -> None:
     assert lines[1].split() == ["kind", "points", "F", "[N]", "theta_1", "[deg]", *lines[1].split()[6:]]
 
 
-@pytest.mark.parametrize("study", sorted(p.name for p in STUDIES.glob("*.toml")))
+SLOW = ("overcentre_cycle.toml", "overcentre_design.toml")
+
+
+@pytest.mark.parametrize(
+    "study",
+    [pytest.param(p.name, marks=[pytest.mark.long] * (p.name in SLOW)) for p in sorted(STUDIES.glob("*.toml"))],
+)
 def test_the_studies_that_come_with_mjcont_run(study: str, tmp_path: Path) -> None:
     plan = load_study(STUDIES / study)
     results = run_study(plan, tmp_path)
