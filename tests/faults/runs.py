@@ -44,8 +44,10 @@ class Reference:
         self.study = folder / "s.toml"
         self.study.write_text(STUDY)
         self.out = folder / "whole"
+        began = time.monotonic()
         for command in (["run", self.study, "-o", self.out], ["sweep", self.study, "-o", self.out, "--workers", "1"]):
             subprocess.run(mjcont(*command), check=True, capture_output=True, timeout=PATIENCE)
+        self.seconds = (time.monotonic() - began) / 2  # of a command on this machine, as busy as it is
         self.files = {p.name: self.content(p) for p in self.out.iterdir() if p.suffix != ".jsonl"}
 
     @staticmethod
@@ -115,7 +117,7 @@ def kill(trials: int, seed: int, folder: Path) -> Count:
         out.mkdir()
         number = [signal.SIGKILL, signal.SIGTERM, signal.SIGINT][int(random.integers(3))]
         command = commands(reference, out)[trial % 4]
-        moment = float(random.uniform(0.0, 6.0))
+        moment = float(random.uniform(0.0, 1.1 * reference.seconds))
         count.add(trial, *_killed(command, number, moment, out, reference))
     return count
 
