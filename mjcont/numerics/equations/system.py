@@ -141,6 +141,11 @@ class Condition(ABC):
     def value(self, local: Local, aux: Array) -> Array:
         """Return the equations' values, (count,)."""
 
+    def error(self, local: Local, aux: Array) -> Array:
+        """Return what differences of their own leave open of the values, (count,)."""
+        del local, aux
+        return np.zeros(self.count)
+
     def gradient(self, local: Local, system: System, y: Array) -> Array | None:
         """Return the derivatives over (x, free parameters), (count, n + number free); None: by differences."""
         del local, system, y
@@ -247,6 +252,12 @@ class System:
             if c.direction is not None:
                 parts[0] = parts[0] + aux[0] * c.direction
             parts.append(c.value(local, aux))
+        return np.concatenate(parts)
+
+    def left_open(self, local: Local, y: Array) -> Array:
+        """Return what differences leave open of G, (equations,)."""
+        parts = [np.zeros(self.n)]
+        parts += [c.error(local, aux) for c, aux in zip(self.conditions, self._aux(y), strict=True)]
         return np.concatenate(parts)
 
     def jacobian(self, local: Local, y: Array) -> Any:
