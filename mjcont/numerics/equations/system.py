@@ -147,7 +147,10 @@ class Condition(ABC):
         return np.zeros(self.count)
 
     def gradient(self, local: Local, system: System, y: Array) -> Array | None:
-        """Return the derivatives over (x, free parameters), (count, n + number free); None: by differences."""
+        """Return the derivatives over (x, free parameters), (count, n + number free), or all unknowns, (count, n + k).
+
+        None: by differences.
+        """
         del local, system, y
         return None
 
@@ -243,6 +246,11 @@ class System:
             at += len(c.aux)
         return parts
 
+    def place(self, condition: Condition) -> int:
+        """Return where in y the auxiliary unknowns of a condition begin."""
+        before = self.conditions[: self.conditions.index(condition)]
+        return len(self.free) + sum(len(c.aux) for c in before)
+
     def residual(self, local: Local, y: Array) -> Array:
         """Return G, (equations,)."""
         if not self.conditions:
@@ -284,7 +292,7 @@ class System:
         for c in self.conditions:
             gradient = c.gradient(local, self, y)
             if gradient is not None:
-                rows[at : at + c.count, : self.n + len(self.free)] = gradient
+                rows[at : at + c.count, : gradient.shape[1]] = gradient
             else:
                 rest.append((at, c))
             at += c.count
