@@ -21,7 +21,7 @@ from mjcont.errors import MjcontError, ParameterError
 from mjcont.numerics.equations.bordered import Factored, oriented
 from mjcont.numerics.equations.defining import Fold, Transversality
 from mjcont.numerics.equations.free import Free
-from mjcont.numerics.equations.newton import Corrected, solve
+from mjcont.numerics.equations.newton import Corrected, known_to, solve
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.system import Local, System
@@ -102,7 +102,7 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
         vectors = {"v": v, "w": w}
     elif kind == "HB":
         omega = math.sqrt(system.conditions[0].square(c.y[-1:]))  # type: ignore[attr-defined]
-        l1 = normalform.first_lyapunov(system.problem, c.x, values, omega)
+        l1 = normalform.lyapunov(system.problem, c.x, values, omega).l1
         coefficients = {"omega": omega, "l1": l1, "type": "supercritical" if l1 < 0 else "subcritical"}
     elif kind != "UZ":
         coefficients, vectors = {k: v for k, v in coefficients.items() if k == "omega"}, {}
@@ -111,8 +111,8 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
     free = {n: _around(like.model.parameters[n], b, values[n]) if n in own else b for n, b in like.free.items()}
     return replace(
         like, parameters=p.parameters, observables=p.observables, state=p.state, eigenvalues=p.eigenvalues,
-        n_unstable=p.n_unstable, stability=p.stability, tolerance=c.step, coefficients=coefficients, vectors=vectors,
-        units=p.units, free=free,
+        n_unstable=p.n_unstable, stability=p.stability, tolerance=known_to(system, c), coefficients=coefficients,
+        vectors=vectors, units=p.units, free=free,
     )
 
 

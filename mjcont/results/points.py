@@ -75,7 +75,7 @@ class SpecialPoint(Point):
     ----------
     kind, label : such as "LP" and "LP1".
     index : row of the branch that holds it.
-    tolerance : size of the last Newton step on its defining system, in scaled unknowns.
+    tolerance : the last Newton step on its defining system, or the noise of that, in scaled unknowns.
     converged : False for a guess from its bracket.
     coefficients : normal-form coefficients by name.
     vectors : null vectors by name, in physical units.

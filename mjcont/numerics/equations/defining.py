@@ -24,7 +24,13 @@ from scipy import sparse
 
 from mjcont.numerics.equations.algebra import singular
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, row_scale
-from mjcont.numerics.equations.differences import bilinear_gradient, directional, second_form
+from mjcont.numerics.equations.differences import (
+    bilinear_gradient,
+    directional,
+    product,
+    product_slopes,
+    second_form,
+)
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import ROW_GUARD, Condition, Local, System, equation_scale
@@ -78,7 +84,7 @@ class Fold(Condition):
         out = np.empty(system.n + len(system.free))
         out[: system.n] = -bilinear_gradient(local.problem, local.x, local.values, w, v)
         for i, p in enumerate(system.free):
-            slope = parameter_slope(lambda at: float(w @ directional(at.problem, at.x, at.values, v, 1)), local, p.name)
+            slope = parameter_slope(lambda at: w @ directional(at.problem, at.x, at.values, v, 1), local, p.name)
             out[system.n + i] = -slope * p.slope(float(y[i]))
         return out[None]
 
@@ -89,11 +95,11 @@ class Fold(Condition):
         self._cache = None
 
 
-def parameter_slope(function: Callable[[Local], float], local: Local, name: str) -> float:
-    """Return d function / d p for a parameter, in physical units, by differences in p."""
+def parameter_slope(function: Callable[[Local], Any], local: Local, name: str) -> Any:
+    """Return d function / d p, a number or an array, for a parameter, in physical units, by differences in p."""
     bounds = local.ranges[local.wrt.index(name)] if local.ranges else None
     rule, h = local.problem.parameter_stencil(name, local.values[name], bounds)
-    total = 0.0
+    total: Any = 0.0
     for offset, weight in zip(rule.offsets, rule.weights, strict=True):
         values = {**local.values, name: local.values[name] + offset * h}
         total += weight * function(Local(local.problem, local.x, values, local.wrt, local.accurate, local.ranges))
@@ -219,6 +225,35 @@ class Hopf(Condition):
         rhs = np.zeros(2 * len(self.b0) + 2)
         rhs[-2] = 1.0
         return Factored(self._bordered(local, k)).solve(rhs)[-2:]
+
+    def gradient(self, local: Local, system: System, y: Array) -> Array | None:
+        """Return dg = -p' dA q over x, parameters and the auxiliary unknown, (2, n + k), by products of J with q alone.
+
+        None where differences of the matrices themselves are to be taken: with a mass matrix, and where J is given.
+        """
+        problem, n = local.problem, system.n
+        if problem.second_order or problem.own_jacobian:
+            return None
+        at = system.place(self)
+        k = self.square(y[at : at + 1]) / self.inner / self.inner
+        factored = Factored(self._bordered(local, k))
+        ends = np.eye(2 * n + 2)[-2:]
+        right, left = factored.solve(ends[0]), np.array([factored.solve_transposed(e) for e in ends])
+        q = right[: 2 * n].reshape(2, n) * problem.state_scale
+        p = left[:, : 2 * n].reshape(2, 2, n) * self.rows
+        out = np.zeros((2, n + system.k))
+        for j in range(2):
+            out[:, :n] += p[:, j] @ product_slopes(problem, local.x, local.values, q[j]).T
+        def products(beside: Local) -> Array:
+            return np.array([product(problem, beside.x, beside.values, v) for v in q])
+
+        for i, free in enumerate(system.free):
+            moved = parameter_slope(products, local, free.name) * free.slope(float(y[i]))
+            out[:, n + i] = np.einsum("ijk,jk->i", p, moved)
+        ahead = self._bordered(local, k + 0.5) - self._bordered(local, k - 0.5)  # it is linear in k
+        rate = (self.rate / self.inner) ** 2 * float(np.cosh(y[at]))
+        out[:, n + at] = -left @ ahead @ right * rate
+        return out
 
     def square(self, aux: Array) -> float:
         """Return omega^2 (negative at a neutral saddle), in 1/s^2."""

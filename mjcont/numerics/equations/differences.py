@@ -172,8 +172,7 @@ def bilinear_gradient(
     n, scale = problem.n, problem.state_scale
     length = length_of(v, scale)
     dv = (step / length) * v
-    e = step * np.diag(scale)
-    f = problem.residuals(x, values, np.concatenate([e + dv, e - dv, -e + dv, -e - dv])) @ w
+    f = problem.residuals(x, values, _mixed_steps(dv, scale, step)) @ w
     pp, pm, mp, mm = f.reshape(4, n)
     gradient = (pp - pm - mp + mm) / (4.0 * step * (step / length))
     if len(set(problem.pieces)) > 1:
@@ -182,6 +181,29 @@ def bilinear_gradient(
     u = v / scale
     exact = float(w @ directional(problem, x, values, v, 2))
     found: Array = gradient + (exact - gradient @ u) / (u @ u) * u
+    return found
+
+
+def _mixed_steps(dv: Array, scale: Array, step: float) -> Array:
+    """Return the steps of a mixed difference along dv and every coordinate, (4 n, n)."""
+    e = step * np.diag(scale)
+    return np.concatenate([e + dv, e - dv, -e + dv, -e - dv])
+
+
+def product_slopes(problem: Equations, x: Array, values: Values, v: Array, step: float = 3e-4) -> Array:
+    """Return the derivatives of (df/dx) v in each scaled coordinate, (n, n_f), where f is smooth: 4 n evaluations."""
+    length = length_of(v, problem.state_scale)
+    rows = problem.residuals(x, values, _mixed_steps((step / length) * v, problem.state_scale, step))
+    pp, pm, mp, mm = rows.reshape(4, problem.n, -1)
+    found: Array = (pp - pm - mp + mm) / (4.0 * step * (step / length))
+    return found
+
+
+def product(problem: Equations, x: Array, values: Values, v: Array, step: float = 3e-4) -> Array:
+    """Return (df/dx) v to second order, (n_f,): two evaluations."""
+    h = step / length_of(v, problem.state_scale)
+    ahead, back = problem.residuals(x, values, h * np.array([v, -v]))
+    found: Array = (ahead - back) / (2.0 * h)
     return found
 
 

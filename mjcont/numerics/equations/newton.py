@@ -251,6 +251,18 @@ def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int =
     return Corrected(x, y, local, factored, iteration, ratio, best, system.error(near, x, y), failure)
 
 
+def known_to(system: System, c: Corrected) -> float:
+    """Return to what a solution is known (scaled): noise and errors of its equations over their slopes.
+
+    A last step may be small by chance: that which follows tells the noise once more.
+    """
+    if c.factored is None:
+        return c.step
+    y = c.y[: system.k]
+    following, _ = _newton_step(system, c.local, y, c.factored, None)
+    return max(c.step, length(following), length(c.factored.solve(system.left_open(c.local, y))))
+
+
 def solve_linear(matrix: Any, rhs: Array) -> Array:
     """Return the solution of a linear system, dense or sparse; where it is singular the shortest of the nearest."""
     if sparse.issparse(matrix):

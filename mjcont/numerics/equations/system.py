@@ -141,8 +141,16 @@ class Condition(ABC):
     def value(self, local: Local, aux: Array) -> Array:
         """Return the equations' values, (count,)."""
 
+    def error(self, local: Local, aux: Array) -> Array:
+        """Return what differences of their own leave open of the values, (count,)."""
+        del local, aux
+        return np.zeros(self.count)
+
     def gradient(self, local: Local, system: System, y: Array) -> Array | None:
-        """Return the derivatives over (x, free parameters), (count, n + number free); None: by differences."""
+        """Return the derivatives over (x, free parameters), (count, n + number free), or all unknowns, (count, n + k).
+
+        None: by differences.
+        """
         del local, system, y
         return None
 
@@ -238,6 +246,11 @@ class System:
             at += len(c.aux)
         return parts
 
+    def place(self, condition: Condition) -> int:
+        """Return where in y the auxiliary unknowns of a condition begin."""
+        before = self.conditions[: self.conditions.index(condition)]
+        return len(self.free) + sum(len(c.aux) for c in before)
+
     def residual(self, local: Local, y: Array) -> Array:
         """Return G, (equations,)."""
         if not self.conditions:
@@ -247,6 +260,12 @@ class System:
             if c.direction is not None:
                 parts[0] = parts[0] + aux[0] * c.direction
             parts.append(c.value(local, aux))
+        return np.concatenate(parts)
+
+    def left_open(self, local: Local, y: Array) -> Array:
+        """Return what differences leave open of G, (equations,)."""
+        parts = [np.zeros(self.n)]
+        parts += [c.error(local, aux) for c, aux in zip(self.conditions, self._aux(y), strict=True)]
         return np.concatenate(parts)
 
     def jacobian(self, local: Local, y: Array) -> Any:
@@ -273,7 +292,7 @@ class System:
         for c in self.conditions:
             gradient = c.gradient(local, self, y)
             if gradient is not None:
-                rows[at : at + c.count, : self.n + len(self.free)] = gradient
+                rows[at : at + c.count, : gradient.shape[1]] = gradient
             else:
                 rest.append((at, c))
             at += c.count

@@ -20,6 +20,7 @@ from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.corner import loaded_at
 from mjcont.numerics.points.events import Located, between
+from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.spectra.tracks import Meeting, Tracks, interpolated, meetings, motion_at, tracks
 from mjcont.numerics.step.arclength import BEFORE, CurvePoint, advance
 
@@ -27,6 +28,8 @@ from mjcont.numerics.step.arclength import BEFORE, CurvePoint, advance
 _ALONE, _MOST = 2e-8, 80
 # no piece ends nearer to another's end than this part; near a point that is found already nothing is looked for
 _EDGE, _NEAR = 0.02, 1e-4
+# where no point can be taken, another one is, aside by this part of the way to the nearer end
+_ASIDE = 0.1
 # products with the Jacobian are taken this many times the longest step; a change of an eigenvalue that they show counts
 # from this part of its distance from the axis on, or of its values at the ends where it passes
 _PLACES, _CHANGES, _STEEPENS = 0.25, 0.3, 0.1
@@ -110,12 +113,17 @@ class Balance:
         return more if more > 1 or (more == 1 and not met[0].crosses) else 0
 
     def _middle(self, a: CurvePoint, b: CurvePoint, part: float) -> CurvePoint | None:
-        """Return the point of the curve at a part of a piece, None where there is none."""
-        self._made += 1
-        middle = advance(self.system, a, part * (b.s - a.s), self.settings)
-        if isinstance(middle, Refused) or not a.s < middle.s < b.s or motion_at(middle) is None:
-            return None
-        return middle
+        """Return the point of the curve at a part of a piece, or near it, None where there is none.
+
+        At a multiple point itself there is no tangent.
+        """
+        for aside in (0.0, -_ASIDE, _ASIDE):
+            self._made += 1
+            place = part + aside * min(part, 1.0 - part)
+            middle = advance(self.system, a, place * (b.s - a.s), self.settings)
+            if not isinstance(middle, Refused) and a.s < middle.s < b.s and motion_at(middle) is not None:
+                return middle
+        return None
 
     def _judged(self, nodes: Sequence[CurvePoint], i: int) -> Piece | _Cut:
         """Return a piece that is not to be halved any further, or where it is to be."""
@@ -123,7 +131,7 @@ class Balance:
         met, last = meetings(nodes, i), self._made >= _MOST
         if len(met) > 1 or (met and not met[0].crosses and not self._turns(a, b)):
             if b.s - a.s < _ALONE or last:
-                together = sum(m.crosses for m in met)
+                together = max(sum(m.crosses for m in met), _passed(a, b, met[0].oscillates))
                 return Piece(a, b, together if together > 1 else 0, met[0].oscillates)
             at = met[0].at if len(met) == 1 else 0.5 * (met[0].at + met[1].at)
             return _Cut(min(max(at, _EDGE), 1.0 - _EDGE), met)
@@ -149,6 +157,12 @@ class Balance:
             if share > worst:
                 worst, where = share, float(t)
         return where
+
+
+def _passed(a: CurvePoint, b: CurvePoint, oscillates: bool) -> int:
+    """Return how many eigenvalues, or pairs, are on the other side of the axis at the second of two points."""
+    one, two = spectrum_of(a), spectrum_of(b)
+    return abs(one.pair_count() - two.pair_count()) if oscillates else abs(one.n_unstable - two.n_unstable)
 
 
 def multiple(piece: Piece) -> Located:

@@ -15,7 +15,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from mjcont.numerics.equations.newton import Corrected, correct
+from mjcont.numerics.equations.newton import Corrected, correct, known_to
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
@@ -39,7 +39,7 @@ class Located:
     ----------
     kind : "LP", "HB", ...
     point : curve point there, on the same curve.
-    tolerance : size of the last Newton step on the defining system.
+    tolerance : to what its place is known: the last Newton step on the defining system, or the noise of that.
     converged : whether the defining system was solved; otherwise the point is a guess from its bracket.
     data : coefficients and vectors by name.
     note : a sentence, where there is something to say.
@@ -236,7 +236,7 @@ class ZeroDetector:
         if done is None:
             return None
         data, note = done
-        return Located(self.kind, point, c.step, True, data, note)
+        return Located(self.kind, point, known_to(full, c), True, data, note)
 
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found:
         """Return the zero between the points, if there is one; a pole is none."""

@@ -12,7 +12,7 @@ second-order problem are those in its n positions (|v| = 1 there).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -37,6 +37,8 @@ _SECOND = np.arange(-2.0, 3.0), np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
 _SECOND_ASIDE = np.arange(6.0), np.array([45.0, -154.0, 214.0, -156.0, 61.0, -10.0]) / 12.0
 # a coefficient counts as zero below this, for amplitudes of the state's scale and in the time of the oscillation
 _DEGENERATE = 1e-9
+# a coefficient with a larger relative error says so
+_KNOWN = 1e-4
 # relative errors of differences from which on a coefficient is computed again with other steps
 _POOR = 1e-6
 
@@ -139,27 +141,48 @@ class FirstOrder:
         return (self._along(u + v, 3) - self._along(u - v, 3) - 2.0 * self._along(v, 3)) / 6.0
 
 
-def first_lyapunov(problem: Equations, x: Array, values: Values, omega: float) -> float:
-    """Return l1 at a Hopf point of frequency omega, zero where rounding alone is left of it.
+@dataclass(frozen=True, slots=True)
+class Lyapunov:
+    """The first Lyapunov coefficient of a Hopf point.
+
+    Attributes
+    ----------
+    value : as the differences give it.
+    error : what they leave open of it.
+    floor : below which rounding alone is left.
+    """
+
+    value: float
+    error: float
+    floor: float
+
+    @property
+    def l1(self) -> float:
+        """The coefficient, zero where rounding alone is left of it."""
+        return 0.0 if abs(self.value) < self.floor else self.value
+
+    @property
+    def known(self) -> bool:
+        """Whether its error is small beside it."""
+        return self.l1 == 0.0 or not self.error > _KNOWN * abs(self.value)
+
+
+def lyapunov(problem: Equations, x: Array, values: Values, omega: float) -> Lyapunov:
+    """Return l1 at a Hopf point of frequency omega; poor differences have what half the steps change for an error.
 
     |q| = 1 in the unknowns of a first-order problem, in the positions of a second-order one.
     """
-    return lyapunov_and_error(problem, x, values, omega)[0]
-
-
-def lyapunov_and_error(problem: Equations, x: Array, values: Values, omega: float) -> tuple[float, float]:
-    """Return `first_lyapunov` and its relative error: where differences seem poor, what half the steps change."""
     form = FirstOrder(problem, x, values)
     found = _lyapunov(form, problem, omega)
     if not form.error > _POOR:
-        return found, form.error
+        return found
     half = FirstOrder(problem, x, values, shorter=0.5)
     again = _lyapunov(half, problem, omega)
     best = again if half.error < form.error else found
-    return best, abs(again - found) / max(abs(best), 1e-300) if again != found else 0.0
+    return replace(best, error=abs(again.value - found.value))
 
 
-def _lyapunov(form: FirstOrder, problem: Equations, omega: float) -> float:
+def _lyapunov(form: FirstOrder, problem: Equations, omega: float) -> Lyapunov:
     jac = form.jacobian()
     q, p = eigenvectors(jac, omega)
     if problem.second_order:
@@ -172,9 +195,10 @@ def _lyapunov(form: FirstOrder, problem: Equations, omega: float) -> float:
     identity = np.eye(len(jac))
     h11 = solve(jac, b)
     h20 = solve(2j * omega * identity - jac, form.second(q, q))
-    total = c - 2.0 * form.second(q, h11) + form.second(q.conj(), h20)
-    found = float(np.real(np.vdot(p, total)) / (2.0 * omega))
-    return 0.0 if abs(found) < _DEGENERATE * form.size(q) ** 2 else found
+    terms = np.array([c, -2.0 * form.second(q, h11), form.second(q.conj(), h20)])
+    found = float(np.real(np.vdot(p, terms.sum(axis=0))) / (2.0 * omega))
+    size = np.abs(p) @ np.abs(terms).sum(axis=0) / (2.0 * np.float64(abs(omega)))
+    return Lyapunov(found, float(form.error * size), _DEGENERATE * form.size(q) ** 2)
 
 
 def eigenvectors(jac: Array, omega: float) -> tuple[Array, Array]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.defining import BranchPoint, Fold, Hopf
-from mjcont.numerics.equations.newton import Corrected, solve
+from mjcont.numerics.equations.newton import Corrected, known_to, solve
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
@@ -42,8 +42,6 @@ _IMPERFECT = 1e-8
 _OTHER_BRANCH = Refused(Why.OTHER_BRANCH, "the orientation changes without a branch point: another branch is near")
 _CLOSE = 1e-6
 _BRACKET = 1e-9
-# a coefficient with a larger relative error says so
-_KNOWN = 1e-4
 # where in a step it is asked whether an oscillation without damping at its end is one beside it, too
 _JUST_INSIDE = 0.1
 # the zero eigenvalue of a fold is a double one where w . v is this small a part of |w| |v|
@@ -98,7 +96,7 @@ class BranchPointDetector:
         if crossing.kind == "pitchfork":
             data["c"] = normalform.pitchfork_coefficient(c.local, w)
             data["type"] = f"{'super' if data['c'] < 0 else 'sub'}critical pitchfork"
-        return Located("BP", point, c.step, True, data)
+        return Located("BP", point, known_to(full, c), True, data)
 
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found | Refused:
         """Return the branch point between the points.
@@ -208,10 +206,11 @@ class HopfDetector:
         if square <= 0:
             return Located("NS", point, c.step, True, {"square": square})
         omega = float(np.sqrt(square))
-        l1, error = normalform.lyapunov_and_error(self.system.problem, c.x, c.local.values, omega)
+        found = normalform.lyapunov(self.system.problem, c.x, c.local.values, omega)
+        l1 = found.l1
         kind = "degenerate" if l1 == 0.0 or math.isnan(l1) else "supercritical" if l1 < 0 else "subcritical"
-        note = f"l1 is known to {error:.0e} of itself only" if error > _KNOWN and l1 != 0.0 else ""
-        return Located("HB", point, c.step, True, {"omega": omega, "l1": l1, "type": kind}, note)
+        note = "" if found.known else f"l1 is known to {found.error / abs(l1):.0e} of itself only"
+        return Located("HB", point, known_to(full, c), True, {"omega": omega, "l1": l1, "type": kind}, note)
 
     @staticmethod
     def _fraction(old: CurvePoint, new: CurvePoint) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -32,14 +33,19 @@ class FirstLyapunov(Condition):
 
     def value(self, local: Local, aux: Array) -> Array:
         """Return l1, relative to its size nearby."""
-        return np.array([lyapunov_at(local)]) / self.weight
+        return np.array([lyapunov_at(local).value]) / self.weight
 
-def lyapunov_at(local: Local) -> float:
+    def error(self, local: Local, aux: Array) -> Array:
+        """Return what differences of third order leave open of l1."""
+        return np.array([lyapunov_at(local).error]) / self.weight
+
+
+def lyapunov_at(local: Local) -> normalform.Lyapunov:
     """Return l1 at or near a Hopf point, NaN where no pair of eigenvalues is imaginary."""
     square = critical_square(local_spectrum(local))
     if square is None or square <= 0:
-        return float("nan")
-    return normalform.first_lyapunov(local.problem, local.x, local.values, float(np.sqrt(square)))
+        return normalform.Lyapunov(math.nan, math.nan, 0.0)
+    return normalform.lyapunov(local.problem, local.x, local.values, float(np.sqrt(square)))
 
 
 def fold_locus_detectors(system: System, fold: Fold, settings: Settings) -> list[Detector]:
@@ -178,11 +184,10 @@ def _generalised_hopf(system: System, hopf: Hopf, settings: Settings) -> ZeroDet
     last = system.k - 1
 
     def test(point: CurvePoint) -> float:
-        value = lyapunov_at(point.local) if point.y[last] > 0 else float("nan")
-        return value
+        return lyapunov_at(point.local).l1 if point.y[last] > 0 else math.nan
 
     def solve_with(near: Corrected) -> Solved:
-        weight = abs(lyapunov_at(near.local)) or 1.0
+        weight = abs(lyapunov_at(near.local).l1) or 1.0
         full, y = square_system(system, [FirstLyapunov(max(weight, 1e-3))], near)
         return solve(full, near.x, y, tol=1e-11, most=12), full
 
@@ -190,7 +195,7 @@ def _generalised_hopf(system: System, hopf: Hopf, settings: Settings) -> ZeroDet
         square = hopf.square(c.y[last : last + 1])
         if square <= 0:
             return None
-        return {"omega": float(np.sqrt(square)), "l1": lyapunov_at(c.local)}, ""
+        return {"omega": float(np.sqrt(square)), "l1": lyapunov_at(c.local).l1}, ""
 
     return ZeroDetector("GH", system, test, solve_with, finish, settings, vanishes=True)
 
