@@ -18,14 +18,15 @@ import mjcont as mc
 from faults.count import Count
 from faults.mutations import STUDY
 from faults.reader import fingerprint
+from faults.warm import Forked, Fresh
 from mjcont.outside import saving
 
 PATIENCE = 180.0
+STARTING = 1.0  # seconds until a fresh process is at work, roughly
 SAVING = """
 import sys
 import mjcont as mc
 table = mc.load(sys.argv[1])
-print("begun", flush=True)
 while True:
     table.save(sys.argv[2] + "/again.h5")
     table.to_csv(sys.argv[2] + "/again.csv")
@@ -37,17 +38,26 @@ def mjcont(*arguments: object) -> list[str]:
     return [sys.executable, "-m", "mjcont", *map(str, arguments)]
 
 
+def forked(command: Sequence[str], said: Path, limit: int | None = None) -> Forked:
+    """Start a command line of mjcont without its imports."""
+    assert command[:3] == mjcont()
+    return Forked(command[3:], said, limit)
+
+
 class Reference:
-    """What undisturbed commands give: the study, its results and its sweep."""
+    """What undisturbed commands give: the study, its results and its sweep; and how many seconds each takes."""
 
     def __init__(self, folder: Path) -> None:
         self.study = folder / "s.toml"
         self.study.write_text(STUDY)
         self.out = folder / "whole"
-        began = time.monotonic()
-        for command in (["run", self.study, "-o", self.out], ["sweep", self.study, "-o", self.out, "--workers", "1"]):
-            subprocess.run(mjcont(*command), check=True, capture_output=True, timeout=PATIENCE)
-        self.seconds = (time.monotonic() - began) / 2  # of a command on this machine, as busy as it is
+        self.seconds: dict[str, float] = {}
+        for command in (["run", self.study, "-o", self.out], ["sweep", self.study, "-o", self.out, "--workers", 1]):
+            begun = time.monotonic()
+            process = forked(mjcont(*command), folder / "said.txt")
+            said = process.wait(PATIENCE)
+            assert process.returncode == 0, said
+            self.seconds[str(command[0])] = time.monotonic() - begun
         self.files = {p.name: self.content(p) for p in self.out.iterdir() if p.suffix != ".jsonl"}
 
     @staticmethod
@@ -108,7 +118,10 @@ def commands(reference: Reference, out: Path) -> list[list[str]]:
 
 
 def kill(trials: int, seed: int, folder: Path) -> Count:
-    """Kill commands at random moments, run them again, and compare with what undisturbed ones give."""
+    """Kill commands at random moments, run them again, and compare with what undisturbed ones give.
+
+    One in five starts as a user starts it; the others are forked, so that their moments lie within the work itself.
+    """
     count, random = Count("kills", seed), np.random.default_rng(seed)
     reference = Reference(folder)
     for trial in range(trials):
@@ -116,62 +129,71 @@ def kill(trials: int, seed: int, folder: Path) -> Count:
         shutil.rmtree(out, ignore_errors=True)
         out.mkdir()
         number = [signal.SIGKILL, signal.SIGTERM, signal.SIGINT][int(random.integers(3))]
-        command = commands(reference, out)[trial % 4]
-        moment = float(random.uniform(0.0, 1.1 * reference.seconds))
-        count.add(trial, *_killed(command, number, moment, out, reference))
+        command, fraction = commands(reference, out)[trial % 4], float(random.uniform(0.0, 1.2))
+        saves, fresh, said = "-c" in command, trial % 5 == 4, folder / "said.txt"
+        moment = 0.01 + fraction * reference.seconds["sweep" if saves or command[-1] == "1" else "run"]
+        what = f"{' '.join(command[1:4])} killed by {signal.Signals(number).name} after {moment:.2f} s"
+        process: Fresh | Forked
+        if saves or fresh:
+            process, moment = Fresh(command, said), moment + STARTING
+        else:
+            process = forked(command, said)
+        end, detail = _killed(process, number, moment, out, reference, saves=saves)
+        if not end:
+            end, detail = _swept(out) if saves else _again(command, out, reference)
+        count.add(trial, end, f"{what}: {detail}")
     return count
 
 
-def _killed(command: Sequence[str], number: int, moment: float, out: Path, reference: Reference) -> tuple[str, str]:
-    what = f"{' '.join(command[1:4])} killed by {signal.Signals(number).name} after {moment:.2f} s"
-    saves = "-c" in command
-    process = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
-    )
+def _killed(
+    process: Fresh | Forked, number: int, moment: float, out: Path, reference: Reference, *, saves: bool
+) -> tuple[str, str]:
+    """Kill a process at a moment; return what is wrong then, empty if nothing is."""
     try:
-        said = process.communicate(timeout=moment)[1]
+        said = process.wait(moment)
     except subprocess.TimeoutExpired:
         process.send_signal(number)
         try:
-            said = process.communicate(timeout=60)[1]
+            said = process.wait(60)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
-            process.communicate()
-            return "hang", what
+            process.wait(60)
+            return "hang", ""
     time.sleep(0.3)  # for children to hear that their parent is gone
     if alive(process.pid):
         os.killpg(process.pid, signal.SIGKILL)
-        return "litter", f"{what}: processes were left"
+        return "litter", "processes were left"
     if process.returncode < 0 and -process.returncode not in (number,):
-        return "crash", f"{what}: ended by signal {-process.returncode}"
+        return "crash", f"ended by signal {-process.returncode}"
     if "Traceback" in said and not (saves and number == signal.SIGINT):  # a script of one's own says so itself
-        return "traceback", f"{what}: {said}"
+        return "traceback", said
     if number != signal.SIGKILL and litter(out):
-        return "litter", f"{what}: {litter(out)}"
+        return "litter", str(litter(out))
     if wrong := reference.wrong(out):
-        return "wrong", f"{what}: {wrong}"
-    return _again(command, out, reference, what) if not saves else _swept(out, what)
+        return "wrong", wrong
+    return "", ""
 
 
-def _swept(out: Path, what: str) -> tuple[str, str]:
+def _swept(out: Path) -> tuple[str, str]:
     saving.write_file(out / "next.txt", "x")
-    return ("litter", f"{what}: {litter(out)}") if litter(out) else ("whole", "")
+    return ("litter", str(litter(out))) if litter(out) else ("whole", "")
 
 
-def _again(command: Sequence[str], out: Path, reference: Reference, what: str) -> tuple[str, str]:
+def _again(command: Sequence[str], out: Path, reference: Reference) -> tuple[str, str]:
     """Run a command again where it was killed: it goes on, and ends as if nothing had been."""
     before = (out / "sweep.jsonl").read_bytes() if (out / "sweep.jsonl").exists() else b""
-    done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
-    if done.returncode:
-        return "lost", f"{what}: again: {done.stderr}"
+    process = forked(command, reference.study.with_name("said.txt"))
+    said = process.wait(PATIENCE)
+    if process.returncode:
+        return "lost", f"again: {said}"
     if litter(out):
-        return "litter", f"{what}: again: {litter(out)}"
+        return "litter", f"again: {litter(out)}"
     if before and not (out / "sweep.jsonl").read_bytes().startswith(before[: before.rfind(b"\n") + 1]):
-        return "lost", f"{what}: lines of the journal"
+        return "lost", "lines of the journal"
     wanted = [n for n in reference.files if n.startswith("sweep.") == ("sweep" in command)]
     missing = [n for n in wanted if not (out / n).exists()]
     if missing or reference.wrong(out):
-        return "wrong", f"{what}: again: {missing} {reference.wrong(out)}"
+        return "wrong", f"again: {missing} {reference.wrong(out)}"
     return "whole", ""
 
 
@@ -185,15 +207,6 @@ def disks_may_be_mounted(folder: Path) -> bool:
     try_it = f"mount -t tmpfs -o size=64k tmpfs '{folder}'"
     done = subprocess.run(["unshare", "-m", "sh", "-c", try_it], capture_output=True, check=False)
     return done.returncode == 0
-
-
-LIMITED = """
-import resource, runpy, sys
-size = int(sys.argv[1])
-from mjcont.commands.cli import main
-resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
-sys.exit(main(sys.argv[2:]))
-"""
 
 
 def fill(trials: int, seed: int, folder: Path) -> Count:
@@ -227,35 +240,33 @@ def _writing(trial: int, out: Path, reference: Reference) -> list[str]:
         lambda: ["plot", stored, "-x", "F", "-y", "theta_1", "-o", out / "plot.png"],
         lambda: ["bush", "slider_crank", "-o", out / "bushed.xml"],
     ]
-    return [str(a) for a in kinds[(trial // 2) % len(kinds)]()]
+    return mjcont(*kinds[(trial // 2) % len(kinds)]())
 
 
-def _judged(done: subprocess.CompletedProcess[str], out: Path, reference: Reference, what: str) -> tuple[str, str]:
-    if done.returncode < 0 or done.returncode >= 128:
-        return "crash", f"{what}: status {done.returncode}: {done.stderr}"
-    if "Traceback" in done.stderr:
-        return "traceback", f"{what}: {done.stderr}"
-    if done.returncode not in (0, 2):
-        return "unclear", f"{what}: status {done.returncode}: {done.stderr}"
-    if done.returncode == 2 and (done.stderr.count("\n") != 1 or f"cannot write {out}" not in done.stderr):
-        return "unclear", f"{what}: {done.stderr}"
+def _judged(status: int | None, said: str, out: Path, reference: Reference, what: str) -> tuple[str, str]:
+    if status is None or status < 0 or status >= 128:
+        return "crash", f"{what}: status {status}: {said}"
+    if "Traceback" in said:
+        return "traceback", f"{what}: {said}"
+    if status not in (0, 2):
+        return "unclear", f"{what}: status {status}: {said}"
+    if status == 2 and (said.count("\n") != 1 or f"cannot write {out}" not in said):
+        return "unclear", f"{what}: {said}"
     if litter(out):
         return "litter", f"{what}: {litter(out)}"
     if wrong := reference.wrong(out):
         return "wrong", f"{what}: {wrong}"
-    return ("fits" if done.returncode == 0 else "refused"), ""
+    return ("fits" if status == 0 else "refused"), ""
 
 
 def _limited(trial: int, size: int, out: Path, reference: Reference) -> tuple[str, str]:
     command = _writing(trial, out, reference)
     there = {p.name for p in out.iterdir()}
-    done = subprocess.run(
-        [sys.executable, "-c", LIMITED, str(size), *command], capture_output=True, text=True, timeout=PATIENCE,
-        check=False,
-    )
+    process = forked(command, out.with_name("said.txt"), size)
+    said = process.wait(PATIENCE)
     if there - {p.name for p in out.iterdir()}:
-        return "lost", f"{command[0]} within {size} bytes: a file that was there is gone"
-    return _judged(done, out, reference, f"{command[0]} within {size} bytes")
+        return "lost", f"{command[3]} within {size} bytes: a file that was there is gone"
+    return _judged(process.returncode, said, out, reference, f"{command[3]} within {size} bytes")
 
 
 def _on_small_disk(trial: int, size: int, mounted: Path, reference: Reference) -> tuple[str, str]:
@@ -265,10 +276,10 @@ def _on_small_disk(trial: int, size: int, mounted: Path, reference: Reference) -
     mount = f"mount -t tmpfs -o size={size} tmpfs '{mounted}'"
     script = f"{mount} && \"$@\"; status=$?; cp -a '{mounted}' '{kept}'; exit $status"
     done = subprocess.run(
-        ["unshare", "-m", "sh", "-c", script, "sh", *mjcont(*command)], capture_output=True, text=True,
+        ["unshare", "-m", "sh", "-c", script, "sh", *command], capture_output=True, text=True,
         timeout=PATIENCE, check=False,
     )
-    end, detail = _judged(done, mounted, reference, f"{command[0]} on a disk of {size} bytes")
+    end, detail = _judged(done.returncode, done.stderr, mounted, reference, f"{command[3]} on a disk of {size} bytes")
     if end in ("fits", "refused") and (litter(kept) or reference.wrong(kept)):
-        return "wrong", f"{command[0]} on a disk of {size} bytes: {litter(kept)} {reference.wrong(kept)}"
+        return "wrong", f"{command[3]} on a disk of {size} bytes: {litter(kept)} {reference.wrong(kept)}"
     return end, detail
