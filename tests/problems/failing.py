@@ -248,6 +248,8 @@ CASES = {
         for fill in (0.0, math.nan, math.inf)
     ],
     "differences.second_form": lambda b: differences.second_form(b.problem, b.x, b.values, b.v, 0.0 * b.v),
+    "differences.product": lambda b: differences.product(b.problem, b.x, b.values, 0.0 * b.v),
+    "differences.product_slopes": lambda b: differences.product_slopes(b.problem, b.x, b.values, 0.0 * b.v),
     "differences.bilinear_gradient": lambda b: differences.bilinear_gradient(b.problem, b.x, b.values, b.x, b.x),
     "on_equilibria.square_system": lambda b: on_equilibria.square_system(b.system, [b.fold()], b.corrected),
     "on_equilibria.fold_detector": lambda b: b.located([on_equilibria.fold_detector(b.system, b.settings)]),
