@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -22,6 +23,8 @@ _FIRST, _LATER = 1e5, 1e2
 _POLISH = 3
 _DIVERGING = 2.0
 _NOISE = 1e-6
+# a step this many times the last Newton step is not made by noise
+_FIRM = 3.0
 LARGEST_ERROR = 1e-7
 _LARGEST_STEP = 2.0
 _DIVERGED = Refused(Why.DIVERGED, "the corrector diverged")
@@ -44,7 +47,7 @@ class Corrected:
     factored : LU of the Jacobian there (with the row).
     jac : the system's Jacobian there (without the row).
     iterations : corrector steps before the last.
-    contraction : ratio of the last two steps before the last Newton step.
+    contraction : ratio of the last two steps before the last Newton step that are well above the noise.
     rate : ratio of the last Newton step to the step before it.
     step : size of the last step: the tolerance reached.
     error : scaled residual.
@@ -134,7 +137,7 @@ def correct(
     size, ratio, tol = np.inf, 0.0, settings.tol
     failure: Refused | None = Refused(Why.UNSETTLED, "the corrector did not converge")
     local, iterations = local or system.local(x, y), 0
-    steps, creeps = list[Array](), False
+    steps, sizes, creeps = list[Array](), list[float](), False
     chord: Array | None = None
     while iterations < settings.max_corrections:
         iterations += 1
@@ -151,6 +154,7 @@ def correct(
             continue
         step = _broyden(chord, steps)
         last, size = size, length(step)
+        sizes.append(size)
         if not size < _LARGEST_STEP:
             failure = _DIVERGED if np.isfinite(size) else undefined(system)
             break
@@ -162,7 +166,7 @@ def correct(
         if converged or (ratio > _SLOW and size <= _NOISE and iterations > 2):  # as close as the noise of f allows
             found = _polished(system, x, y, local, row, size, tol)
             if found is not None:
-                return replace(found, iterations=iterations, contraction=ratio)
+                return replace(found, iterations=iterations, contraction=_contraction(sizes, found.step))
             steps = []
             continue
         if ratio > _DIVERGING:
@@ -172,6 +176,13 @@ def correct(
         if ratio > _SLOW and len(steps) > 2:
             lu = None
     return Corrected(x, y, local, lu, iterations, ratio, size, np.inf, failure)
+
+
+def _contraction(sizes: Sequence[float], noise: float) -> float:
+    """Return the ratio of the last two steps that noise has not made, 0 if there are none: of that it tells nothing."""
+    firm = [size > _FIRM * noise for size in sizes[1:]]
+    told = [after / before for before, after, tells in zip(sizes, sizes[1:], firm, strict=False) if tells]
+    return told[-1] if told else 0.0
 
 
 def _polished(

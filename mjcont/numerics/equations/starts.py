@@ -122,7 +122,7 @@ def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array,
         dx = _implicit(system, local, mass, dt)
         size = float(np.max(np.abs(dx) / scale))
         if not size <= _LARGEST:
-            dt *= 0.25
+            dt *= 0.3  # no power of two: the same dt, and what is singular for it, does not come again
             if dt < 1e-14:
                 sentence = "the motion from the start could not be followed: steps became too short"
                 return x, Refused(Why.DIVERGED, sentence)
