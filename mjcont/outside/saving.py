@@ -85,7 +85,8 @@ def output_folder(path: str | Path) -> Path:
 def _cannot(path: Path, error: OSError | ValueError) -> MjcontError:
     folder = Path(os.path.realpath(path)).parent if "\0" not in str(path) else path.parent
     if isinstance(error, FileNotFoundError) and not folder.is_dir():
-        return MjcontError(f"cannot write {path}: the folder {path.parent} does not exist")
+        shown = folder if path.is_symlink() else path.parent  # a link's own folder is there
+        return MjcontError(f"cannot write {path}: the folder {shown} does not exist")
     return MjcontError(f"cannot write {path}: {getattr(error, 'strerror', None) or error}")
 
 

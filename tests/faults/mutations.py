@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import atexit
 import json
 import os
 import re
 import select
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -68,7 +71,7 @@ class Reader:
             environment = {**os.environ, "PYTHONPATH": os.pathsep.join([here, os.environ.get("PYTHONPATH", "")])}
             self._process = subprocess.Popen(
                 [sys.executable, "-m", "faults.reader"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL, env=environment, cwd=path.parent, bufsize=0,
+                stderr=subprocess.DEVNULL, env=environment, cwd=tempfile.gettempdir(), bufsize=0,
             )
         process = self._process
         assert process.stdin is not None and process.stdout is not None
@@ -92,6 +95,14 @@ class Reader:
             self._process.kill()
             self._process.communicate()
             self._process = None
+
+
+@cache
+def reading() -> Reader:
+    """Return the one reader of this process: it pays for its imports once."""
+    reader = Reader()
+    atexit.register(reader.close)
+    return reader
 
 
 def changed(data: bytes, random: Random) -> bytes:
@@ -169,7 +180,7 @@ def as_version_1(path: Path) -> Path:
 
 def mutate_results(trials: int, seed: int, folder: Path) -> Count:
     """Change stored results; one in thirty is of an older version, of which only the reading is judged."""
-    count, random, reader = Count("results", seed), np.random.default_rng(seed), Reader()
+    count, random, reader = Count("results", seed), np.random.default_rng(seed), reading()
     files = [(p.read_bytes(), fingerprint(mc.load(p))) for p in results(folder)]
     old = as_version_1(folder / "branch.h5").read_bytes()
     for trial in range(trials):
@@ -177,7 +188,6 @@ def mutate_results(trials: int, seed: int, folder: Path) -> Count:
         path = folder / "changed.h5"
         path.write_bytes(changed(data, random))
         judge(count, trial, reader.ask("result", path), path, expected)
-    reader.close()
     return count
 
 
@@ -186,7 +196,7 @@ def mutate_results(trials: int, seed: int, folder: Path) -> Count:
 
 def mutate_journals(trials: int, seed: int, folder: Path) -> Count:
     """Change the journal of a sweep, then go on with it."""
-    count, random, reader = Count("journals", seed), np.random.default_rng(seed), Reader()
+    count, random, reader = Count("journals", seed), np.random.default_rng(seed), reading()
     study = folder / "s.toml"
     study.write_text(STUDY)
     expected = fingerprint(mc.sweep(mc.load_study(study), out=folder / "whole", workers=1))
@@ -196,19 +206,17 @@ def mutate_journals(trials: int, seed: int, folder: Path) -> Count:
     for trial in range(trials):
         journal.write_bytes(changed(data, random))
         judge(count, trial, reader.ask("journal", journal, str(study)), journal, expected)
-    reader.close()
     return count
 
 
 def mutate_studies(trials: int, seed: int, folder: Path) -> Count:
     """Change a study, then check it and run what is left."""
-    count, random, reader = Count("studies", seed), np.random.default_rng(seed), Reader()
+    count, random, reader = Count("studies", seed), np.random.default_rng(seed), reading()
     text = STUDY.replace("csv = true", "csv = true\nsettings = { max_seconds = 5 }").encode()
     for trial in range(trials):
         path = folder / "changed.toml"
         path.write_bytes(changed_text(text, random))
         judge(count, trial, reader.ask("study", path, str(folder / "out")), path, None)
-    reader.close()
     return count
 
 
@@ -223,7 +231,7 @@ PART = """<mujoco model="part"><worldbody><body name="link"><joint name="knee" t
 
 def mutate_models(trials: int, seed: int, folder: Path) -> Count:
     """Change models that ship with mjcont, and one that attaches another; then load, describe, and find a rest."""
-    count, random, reader = Count("models", seed), np.random.default_rng(seed), Reader()
+    count, random, reader = Count("models", seed), np.random.default_rng(seed), reading()
     (folder / "part.xml").write_text(PART)
     names = ("overcentre", "von_mises_truss", "nose_gear", "four_bar")
     texts = [p.read_bytes() for n in names if (p := models_folder() / f"{n}.xml").is_file()]
@@ -232,5 +240,4 @@ def mutate_models(trials: int, seed: int, folder: Path) -> Count:
         path = folder / "changed.xml"
         path.write_bytes(changed_text(texts[trial % len(texts)], random))
         judge(count, trial, reader.ask("model", path), path, None)
-    reader.close()
     return count

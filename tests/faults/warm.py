@@ -71,7 +71,7 @@ class Forked:
             if self.returncode is None:
                 if time.monotonic() > until:
                     raise subprocess.TimeoutExpired("mjcont", timeout)
-                time.sleep(0.01)
+                time.sleep(0.03)
         return self._said.read_text(errors="replace")
 
 

@@ -85,6 +85,13 @@ def test_a_link_is_followed(tmp_path: Path) -> None:
     assert link.is_symlink()
 
 
+def test_a_link_into_a_folder_that_is_not_there_names_that_folder(tmp_path: Path) -> None:
+    link = tmp_path / "link.csv"
+    link.symlink_to(tmp_path / "nowhere" / "real.csv")
+    with pytest.raises(mc.MjcontError, match=r"link\.csv: the folder .*nowhere does not exist"):
+        saving.write_file(link, "new")
+
+
 def test_links_in_a_circle_are_an_error(tmp_path: Path) -> None:
     (tmp_path / "a").symlink_to(tmp_path / "b")
     (tmp_path / "b").symlink_to(tmp_path / "a")
