@@ -307,7 +307,7 @@ class System:
         """Return the gradients of conditions by centred differences, (count, n + k): good enough for most of Newton."""
         gradient = np.empty((sum(c.count for c in conditions), self.n + self.k))
         for j in range(self.n + self.k):
-            h = self._gradient_step(j - self.n, y)
+            h = self.gradient_step(j - self.n, y)
             step = np.zeros(self.n + self.k)
             step[j] = h
             (after, beyond), (before, behind) = (self._conditions_at(conditions, local, y, s) for s in (step, -step))
@@ -333,7 +333,7 @@ class System:
         at, parts = self.local(x, moved), self._aux(moved)
         return np.concatenate([c.value(at, parts[self.conditions.index(c)]) for c in conditions]), moved
 
-    def _gradient_step(self, i: int, y: Array) -> float:
+    def gradient_step(self, i: int, y: Array) -> float:
         """Return the difference step for y[i]: smaller where a parameter is small in its range; i < 0 for the state."""
         if not 0 <= i < len(self.free):
             return _GRADIENT_STEP

@@ -90,7 +90,8 @@ class Balance:
             middle = None if isinstance(judged, Piece) else self._middle(a, b, judged.at)
             if middle is None or isinstance(judged, Piece):
                 piece = judged if isinstance(judged, Piece) else Piece(a, b)
-                found.append(replace(piece, quiet=piece.quiet and any(a is m for m in multiple)))
+                beside = piece.together > 1 or any(a is m for m in multiple)
+                found.append(replace(piece, quiet=piece.quiet and beside))
                 i += 1
                 continue
             nodes.insert(i + 1, middle)
@@ -131,8 +132,10 @@ class Balance:
         met, last = meetings(nodes, i), self._made >= _MOST
         if len(met) > 1 or (met and not met[0].crosses and not self._turns(a, b)):
             if b.s - a.s < _ALONE or last:
-                together = max(sum(m.crosses for m in met), _passed(a, b, met[0].oscillates))
-                return Piece(a, b, together if together > 1 else 0, met[0].oscillates)
+                kind = met[0].oscillates
+                together = max(sum(m.crosses for m in met), _passed(a, b, kind))
+                alike = together > 1 and all(m.oscillates == kind for m in met)  # none is a point of its own
+                return Piece(a, b, together if together > 1 else 0, kind, alike)
             at = met[0].at if len(met) == 1 else 0.5 * (met[0].at + met[1].at)
             return _Cut(min(max(at, _EDGE), 1.0 - _EDGE), met)
         strays = None if last or met and b.s - a.s < _NEAR else self._strays(nodes, i)
