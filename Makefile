@@ -20,7 +20,7 @@ STAMP_TEXT = printf '%s\n' "$(CURDIR)" "$(PYTHON)"
 FRESH := $(shell $(BIN)/python -c 'import pip' 2>/dev/null && $(STAMP_TEXT) | cmp -s - $(STAMP) && echo yes)
 
 .DEFAULT_GOAL := help
-.PHONY: help env reproduce reproduce-fast test test-long test-fuzz test-shaken test-kernels test-faults thirdparty \
+.PHONY: help env reproduce reproduce-fast test test-long test-fuzz test-shaken test-shaken-fast test-kernels test-faults thirdparty \
 	test-thirdparty bench clean FORCE
 
 help: ## list these targets
@@ -38,7 +38,7 @@ test: env ## lint, rooms, types and tests
 	$(BIN)/ruff check
 	$(BIN)/lint-imports
 	$(BIN)/mypy
-	$(BIN)/pytest -q -n auto
+	$(BIN)/pytest -q -n auto --dist loadfile
 
 test-long: env ## the tests that take minutes
 	$(BIN)/pytest -q -n auto -m "long and not thirdparty"
@@ -48,6 +48,9 @@ test-fuzz: env ## many random problems whose special points and stability are kn
 
 test-shaken: env ## special points and stability under noise as large as rounding, ten seeds (one: SEED=3)
 	$(BIN)/pytest -q -n auto --dist loadgroup -m shaken $(if $(SEED),-k seed$(SEED))
+
+test-shaken-fast: env ## of these, curves that take seconds, two seeds
+	$(BIN)/pytest -q -n auto --dist loadgroup -m "shaken and fast"
 
 test-kernels: env ## the tests under every BLAS kernel that this processor can run (minutes each)
 	$(BIN)/python tests/kernels.py

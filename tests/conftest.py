@@ -11,8 +11,9 @@ from problems.reference import BOUNDS, START
 import mjcont as mc
 from mjcont.numerics.walk import guard
 
-if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # in the background: what tests start would be deaf
-    signal.signal(signal.SIGINT, signal.default_int_handler)
+for number, action in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
+    if signal.getsignal(number) is signal.SIG_IGN:  # in the background: what tests start would be deaf
+        signal.signal(number, action)
 guard.raise_unexpected(True)  # what a user meets as a status is a failure here
 
 

@@ -123,7 +123,7 @@ def table(results: Sequence[tuple[Case, bool, str]]) -> str:
 
 def suite(case: Case, arguments: Sequence[str]) -> tuple[Case, bool, str]:
     """Run the quick suite in a child process, its output shown as it comes, and return how it went."""
-    command = [sys.executable, "-m", "pytest", "-q", *(arguments or ["-n", "auto"])]
+    command = [sys.executable, "-m", "pytest", "-q", *(arguments or ["-n", "auto", "--dist", "loadfile"])]
     said = ""
     with subprocess.Popen(
         command, cwd=_ROOT, env={**os.environ, **case.variables}, stdout=subprocess.PIPE, text=True

@@ -26,9 +26,10 @@ def starting() -> Iterator[None]:
     masks = hasattr(signal, "pthread_sigmask")
     if masks:
         resource_tracker.ensure_running()  # started within, it would let the interrupts through again
-    before = {name: os.environ.get(name) for name in _ONE_THREAD}
+    set_there = {**_ONE_THREAD, **_found_here()}
+    before = {name: os.environ.get(name) for name in set_there}
     blocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT}) if masks else set()
-    os.environ.update(_ONE_THREAD)
+    os.environ.update(set_there)
     try:
         yield
     finally:
@@ -36,6 +37,16 @@ def starting() -> Iterator[None]:
             os.environ.pop(name) if value is None else os.environ.update({name: value})
         if masks:
             signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
+
+
+def _found_here() -> dict[str, str]:
+    """Return where glfw, which MuJoCo imports, has found its library: it starts an interpreter to look for that.
+
+    That would take time in every process, and complain where an interrupt ends the process meanwhile.
+    """
+    library = getattr(sys.modules.get("glfw.library"), "glfw", None)
+    name = getattr(library, "_name", None)
+    return {"PYGLFW_LIBRARY": name} if name and "PYGLFW_LIBRARY" not in os.environ else {}
 
 
 def end_with_parent(interrupt: signal.Handlers) -> None:
