@@ -32,7 +32,7 @@ from mjcont.results.quantities import column_of, meant_each
 
 M = TypeVar("M", bound=Model)
 # how often a curve is followed anew at most, with the scale that its states tell
-_SCALES = 3
+_SCALES = 4
 
 
 def check_limits(name: str, ends: Any) -> None:
@@ -160,25 +160,37 @@ def continue_equilibria(
     """
     directions = check_direction(direction)
     with clock.limited(make_settings(options).max_seconds):
+        ran_off: Branch | None = None
         for _ in range(_SCALES):
             prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
-            branch, fitting = _followed(prepared, directions, progress)
+            branch, fitting = _followed(prepared, directions, progress, "max_size" in options)
+            ran_off = ran_off or (branch if _runs_off(branch) else None)
             if fitting is None:
                 break
             problem = fitting
+        if ran_off and (_runs_off(branch) or len(branch.special_points) < len(ran_off.special_points)):
+            branch = ran_off
     return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
 
 
+def _runs_off(branch: Branch) -> bool:
+    """Whether a branch ends because its states grow beyond bounds, as far as its scale tells."""
+    return any(word == Status.RUNS_OFF.value for word, _ in branch.ends)
+
+
 def _followed(
-    prepared: _Prepared, directions: Sequence[float], progress: Progress | None
+    prepared: _Prepared, directions: Sequence[float], progress: Progress | None, sized: bool
 ) -> tuple[Branch, Model | None]:
-    """Return a branch, and its problem with the scale that its states tell: None where it fits, or a user ended it."""
+    """Return a branch, and its problem with the scale that its states tell: None where it fits, or a user ended it.
+
+    Where it runs off, and the user has not `sized` it, its states may be large numbers by their unit alone.
+    """
     walker = prepared.walker
     traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
     branch = collect(
         "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.notes
     )
-    kept = (Status.RUNS_OFF, Status.INTERRUPTED, Status.STOPPED, Status.FAILED)
+    kept = (Status.INTERRUPTED, Status.STOPPED, Status.FAILED, *([Status.RUNS_OFF] if sized else []))
     if not branch.model.follows_scale or any(t.end.status in kept for t in traces):
         return branch, None
     return branch, branch.model.rescaled(np.abs(branch.states).max(axis=0))

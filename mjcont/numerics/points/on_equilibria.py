@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -35,8 +36,9 @@ from mjcont.numerics.step.arclength import CurvePoint, advance
 from mjcont.numerics.step.turning import turning_fraction
 
 _NOT_TRANSVERSE = 1e-6
-# the unfolding of a true branch point vanishes with the square of the error of its location
-_UNFOLDED = 1e-12
+# the unfolding of a true branch point vanishes with the square of the error of its location, down to the rounding of f:
+# below the first it counts; below the second where nothing else is found, as between two branch points beside the curve
+_UNFOLDED, _NEARLY = 1e-14, 1e-12
 # an unfolding larger than this is no error of location
 _IMPERFECT = 1e-8
 _OTHER_BRANCH = Refused(Why.OTHER_BRANCH, "the orientation changes without a branch point: another branch is near")
@@ -73,7 +75,9 @@ class BranchPointDetector:
         """Whether the orientation changes; it is zero on a branch point, which belongs to the steps on both sides."""
         return old.sign != new.sign
 
-    def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | Refused | None:
+    def _settle(
+        self, old: CurvePoint, new: CurvePoint, unfolded: float, nearly: list[float]
+    ) -> Located | Refused | None:
         near = approximate(self.system, old, new, 0.5, self.settings)
         if near.failure is not None:
             return None
@@ -86,7 +90,8 @@ class BranchPointDetector:
         unfolding = abs(float(c.y[self.system.k]))
         if unfolding > _IMPERFECT:  # two branches pass each other here: halving the bracket finds the same
             return _OTHER_BRANCH
-        if unfolding > _UNFOLDED:
+        if unfolding > unfolded:
+            nearly += [unfolding] if unfolding <= _NEARLY else []
             return None
         kernel, w = condition.null(c.local)
         slope = self.system.free[0].slope(float(c.y[0]))
@@ -103,7 +108,11 @@ class BranchPointDetector:
 
         Refused if the orientation changes without one. Where it vanishes a matrix is singular by chance.
         """
-        result = bisect(self.system, old, new, self.crossed, self._settle, self.settings)
+        nearly, result = list[float](), None
+        for unfolded in (_UNFOLDED, _NEARLY):
+            if result is None and (unfolded == _UNFOLDED or nearly):
+                settle = partial(self._settle, unfolded=unfolded, nearly=nearly)
+                result = bisect(self.system, old, new, self.crossed, settle, self.settings)
         if result is None and old.sign * new.sign < 0:
             return _OTHER_BRANCH
         return Found() if result is None else Found([result])
