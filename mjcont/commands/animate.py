@@ -6,13 +6,15 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
+from mjcont.commands.readers import place
 from mjcont.outside.terminal import Live, live_stream
 
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     p.add_argument("file", metavar="FILE.h5", help="a history, a branch or a load path")
-    p.add_argument("-o", "--out", metavar="FILE", help="gif, or mp4 with ffmpeg (default: FILE.gif beside the input)")
+    p.add_argument("-o", "--out", type=place, metavar="FILE",
+                   help="gif, or mp4 with ffmpeg (default: FILE.gif beside the input)")
     p.add_argument("-x", metavar="COL", help="column along the horizontal axis (default: time, or the parameter)")
     p.add_argument("-y", metavar="COL", help="column along the vertical axis (default: the first observable)")
     p.add_argument("--on", metavar="BRANCH.h5", action="append", help="a branch to draw the diagram of (repeat it)")

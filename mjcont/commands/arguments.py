@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from mjcont.commands.animate import add_arguments as animate_arguments
+from mjcont.commands.readers import assignment, place, positive
 from mjcont.commands.sweep import add_arguments as sweep_arguments
 from mjcont.results.quantities import FRICTION
 
@@ -30,21 +31,6 @@ class _Version(argparse.Action):
 
         print(f"mjcont {__version__}", flush=True)
         parser.exit()
-
-
-def assignment(text: str) -> tuple[str, str]:
-    """Read NAME=VALUE."""
-    name, equals, value = text.rpartition("=")
-    if not (name and equals and value):
-        raise argparse.ArgumentTypeError(f"expected NAME=VALUE such as F=20 or gravity_angle=20deg, got '{text}'")
-    return name, value
-
-
-def positive(text: str) -> int:
-    """Read a whole number from 1 on."""
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"expected a whole number from 1 on, got '{text}'")
-    return int(text)
 
 
 def parser(functions: Mapping[str, Callable[[argparse.Namespace], int]]) -> argparse.ArgumentParser:
@@ -89,7 +75,7 @@ def _models(command: Command) -> None:
 
     p = command("bush", "replace rigid pins by elastic ones, so that a mechanism becomes an ODE")
     p.add_argument("model", metavar="MODEL", help=_MODEL_HELP)
-    p.add_argument("-o", "--out", metavar="OUT.xml", required=True, help="the new model")
+    p.add_argument("-o", "--out", type=place, metavar="OUT.xml", required=True, help="the new model")
     p.add_argument("--joint", metavar="NAME", action="append", help="a hinge or ball joint of the tree (repeat it)")
     p.add_argument("--connect", metavar="NAME", action="append", help="a connect or weld (default: all active ones)")
     p.add_argument("--stiffness", metavar="K", type=float, default=1e6, help="N/m (default: 1e6)")
@@ -101,7 +87,7 @@ def _studies(command: Command) -> None:
     """Add what works on studies."""
     p = command("run", "run a study: compute its branches, store them, draw its plots")
     p.add_argument("study", metavar="STUDY.toml", help="the study file (docs/studies.md)")
-    p.add_argument("-o", "--out", metavar="DIR", default="out", help="folder for results (default: out)")
+    p.add_argument("-o", "--out", type=place, metavar="DIR", default="out", help="folder for results (default: out)")
     p.add_argument("--friction", choices=FRICTION, help=_FRICTION_HELP + " or the study's own")
     p.add_argument("-q", "--quiet", action="store_true", help="print errors only")
 
@@ -110,7 +96,7 @@ def _studies(command: Command) -> None:
     p.add_argument("--friction", choices=FRICTION, help=_FRICTION_HELP + " or the study's own")
 
     p = command("sweep", "compute a study's special points for many variants of its model; resumable")
-    sweep_arguments(p, positive)
+    sweep_arguments(p)
 
 
 def _results(command: Command) -> None:
@@ -119,7 +105,8 @@ def _results(command: Command) -> None:
     p.add_argument("files", metavar="FILE.h5", nargs="+")
     p.add_argument("-x", metavar="COL", required=True, help="column along the horizontal axis")
     p.add_argument("-y", metavar="COL", required=True, help="column along the vertical axis")
-    p.add_argument("-o", "--out", metavar="FILE", help="png, pdf or svg (default: FILE.png beside the first input)")
+    p.add_argument("-o", "--out", type=place, metavar="FILE",
+                   help="png, pdf or svg (default: FILE.png beside the first input)")
     p.add_argument("--no-labels", dest="labels", action="store_false", help="leave out LP1, HB1, ...")
     p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
 
@@ -132,12 +119,12 @@ def _results(command: Command) -> None:
                    help="a parameter, or a path such as body:strut.mass (repeat it; default: all the model declares)")
     p.add_argument("-q", "--quantity", metavar="COL", action="append",
                    help="what moves (repeat it; default: the point's own parameters)")
-    p.add_argument("-o", "--out", metavar="FILE", help="draw a tornado chart of the first: png, pdf or svg")
-    p.add_argument("--csv", metavar="FILE.csv", help="write the table, SI and radians")
+    p.add_argument("-o", "--out", type=place, metavar="FILE", help="draw a tornado chart of the first: png, pdf or svg")
+    p.add_argument("--csv", type=place, metavar="FILE.csv", help="write the table, SI and radians")
 
     p = command("export", "write a stored branch as CSV")
     p.add_argument("file", metavar="FILE.h5")
-    p.add_argument("-o", "--out", metavar="FILE.csv", help="default: FILE.csv beside the input")
+    p.add_argument("-o", "--out", type=place, metavar="FILE.csv", help="default: FILE.csv beside the input")
     p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
 
 
@@ -150,6 +137,7 @@ def _reports(command: Command) -> None:
     q.add_argument("--extended", action="store_true", help="the extended studies as well")
     q.add_argument("--only", metavar="NAME", help="one figure or study, such as fig03 or unlocking")
     for each in (p, q):
-        each.add_argument("-o", "--out", metavar="DIR", default="out/reproduce", help="default: out/reproduce")
+        each.add_argument("-o", "--out", type=place, metavar="DIR", default="out/reproduce",
+                          help="default: out/reproduce")
         each.add_argument("--force", action="store_true", help="compute again what is stored already")
         each.add_argument("--jobs", metavar="N", type=positive, help="figures at a time (default: one a processor)")

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mjcont.commands.readers import place, positive
 from mjcont.errors import MjcontError
 from mjcont.outside.saving import check_writable
 from mjcont.outside.terminal import Live, live_stream
@@ -19,16 +20,16 @@ if TYPE_CHECKING:
 _REDRAW_SECONDS = 0.2
 
 
-def add_arguments(p: argparse.ArgumentParser, positive: Callable[[str], int]) -> None:
+def add_arguments(p: argparse.ArgumentParser) -> None:
     """Add the command's arguments to its parser."""
     p.add_argument("study", metavar="STUDY.toml", help="a study file with a table [sweep] (docs/sweeps.md)")
-    p.add_argument("-o", "--out", metavar="DIR", default="sweep",
+    p.add_argument("-o", "--out", type=place, metavar="DIR", default="sweep",
                    help="folder for the journal and the tables; a sweep that stopped goes on there (default: sweep)")
     p.add_argument("--limit", metavar="N", type=positive, help="the first N cases only")
     where = p.add_mutually_exclusive_group()
     where.add_argument("--workers", metavar="N", type=positive, help="processes (default: one a processor)")
     where.add_argument("--scheduler", metavar="ADDRESS", help="a Dask scheduler, such as tcp://host:8786")
-    p.add_argument("--plot", metavar="FILE", action="append", default=[],
+    p.add_argument("--plot", type=place, metavar="FILE", action="append", default=[],
                    help="draw a quantity's distribution (with -y; default the first): png, pdf or svg")
     p.add_argument("-x", metavar="COL", help="of the plot: scatter against this column instead")
     p.add_argument("-y", metavar="COL", help="of the plot: the quantity")

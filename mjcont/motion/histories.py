@@ -20,13 +20,17 @@ from mjcont.mechanism.mechanism import Mechanism
 from mjcont.motion.signals import Input, read_inputs
 from mjcont.motion.stepping import INTEGRATORS, Case, Grid, Track, run
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.settings import check_numbers
 from mjcont.results.histories import History
 from mjcont.results.points import Column, Point
+from mjcont.results.quantities import finite_array
 
 MODEL = "model"
 _CASE_KEYS = ("inputs", "start", "keyframe", "state", "velocity")
 _MAX_STEPS = 20_000_000
 _MAX_HALVINGS = 12
+# more steps than a computer takes in a lifetime, few enough to be counted, and halved, in 64 bits
+_COUNTED = 1e12
 # motion below this part of the model's size counts as none in a relative change
 _NO_MOTION = 1e-6
 
@@ -153,9 +157,11 @@ def simulate_many(
         raise ParameterError("cases must be a sequence of dicts with any of " + ", ".join(_CASE_KEYS))
     if integrator not in INTEGRATORS and integrator != MODEL:
         raise unknown_name("integrator", integrator, [*INTEGRATORS, MODEL])
-    for label, value in (("tol", tol), ("until_rest", until_rest), ("control_step", control_step),
-                         ("timestep", timestep), ("duration", duration)):
-        if value is not None and not (value > 0 and math.isfinite(value)):
+    optional = {"tol": tol, "until_rest": until_rest, "control_step": control_step, "timestep": timestep}
+    numbers = {"duration": duration, **{name: value for name, value in optional.items() if value is not None}}
+    check_numbers({**numbers, "samples": samples, "max_steps": max_steps})
+    for label, value in numbers.items():
+        if not (value > 0 and math.isfinite(value)):
             raise ParameterError(f"{label} must be a positive number, got {value}")
     made = [_make_case(mechanism, c) for c in cases]
     own = float(mechanism.simulation_model().opt.timestep)
@@ -177,14 +183,15 @@ def _make_case(mechanism: Mechanism, given: Mapping[str, Any]) -> Case:
         mechanism.parameter(name)
     values = mechanism.values({**values, **{n: s.at(0.0) for n, s in signals.items()}})
     velocity = given.get("velocity")
-    v = np.zeros(mechanism.n) if velocity is None else np.array(velocity, dtype=float)
-    if v.shape != (mechanism.n,):
-        raise ParameterError(f"velocity must have shape ({mechanism.n},), got {v.shape}")
+    v = np.zeros(mechanism.n) if velocity is None else finite_array("velocity", velocity, (mechanism.n,))
     return Case(values, signals, controllers, x, v)
 
 
 def _grid(duration: float, step: float, control_step: float | None, samples: int) -> Grid:
     hold = 1
+    for label, length in (("duration", duration), ("control_step", control_step)):
+        if length is not None and length > _COUNTED * step:
+            raise ParameterError(f"{label} ({length:g} s) is more than {_COUNTED:.0e} time steps of {step:g} s")
     if control_step is not None:
         hold = max(math.ceil(control_step / step - 1e-9), 1)
         step = control_step / hold

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -27,6 +28,8 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--part", type=float, default=1.0, help="of the trials (default: 1)")
     given = parser.parse_args()
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # in the background: what is killed would be deaf
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     bad = 0
     for name in given.campaigns or CAMPAIGNS:
         campaign, trials = CAMPAIGNS[name]

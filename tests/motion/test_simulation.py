@@ -313,6 +313,13 @@ def test_a_damaged_history_is_refused(overcentre, tmp_path):
         ({"inputs": [1.0]}, "inputs must be a dict"),
         ({"tol": -1.0}, "tol must be a positive number"),
         ({"duration": 0.0}, "duration must be a positive number"),
+        ({"duration": 1e300}, r"duration \(1e\+300 s\) is more than 1e\+12 time steps"),
+        ({"timestep": 1e-300}, r"duration \(0.1 s\) is more than 1e\+12 time steps"),
+        ({"inputs": {"F": lambda t, seen: 0.0}, "control_step": 1e300}, "control_step .* more than 1e.12 time steps"),
+        ({"duration": "5"}, "duration must be a number"),
+        ({"samples": math.nan}, "samples must be a number"),
+        ({"max_steps": math.nan}, "max_steps must be a number"),
+        ({"velocity": [math.nan] * 6}, "velocity must hold finite numbers"),
         ({"velocity": [1.0]}, r"velocity must have shape \(6,\)"),
     ],
 )

@@ -112,6 +112,19 @@ def test_a_folder_that_cannot_be_written_to_is_told_before_anything_is_read(comm
     assert "no does not exist" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    "command",
+    [["run", "s.toml", "-o"], ["sweep", "s.toml", "-o"], ["sweep", "s.toml", "--plot"], ["bush", "overcentre", "-o"],
+     ["export", "a.h5", "-o"], ["plot", "a.h5", "-x", "F", "-y", "F", "-o"], ["animate", "a.h5", "-o"],
+     ["sensitivities", "a.h5", "LP1", "-o"], ["sensitivities", "a.h5", "LP1", "--csv"], ["reproduce", "-o"],
+     ["report", "-o"]],
+)  # fmt: skip
+def test_no_output_is_called_nothing(command: list[str], capsys) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main([*command, ""])
+    assert "expected the name of a file or a folder, got ''" in capsys.readouterr().err
+
+
 def test_a_result_is_not_written_over_by_its_own_export(overcentre_branch, tmp_path: Path, capsys) -> None:
     saved = overcentre_branch().save(tmp_path / "a.h5")
     before = saved.read_bytes()
