@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from mjcont.commands import animate
 from mjcont.commands.arguments import parser
 from mjcont.errors import MjcontError, ModelError, ResultFileError
-from mjcont.outside.interrupts import termination_unwinds
+from mjcont.outside.interrupts import ended_by, termination_unwinds
 from mjcont.outside.saving import check_writable
 from mjcont.outside.terminal import complain, live_stream, say
 from mjcont.results.quantities import FRICTION
@@ -46,6 +46,11 @@ def main(argv: Sequence[str] | None = None) -> int:
             return int(args.command(args))
     except KeyboardInterrupt:
         return _complain("interrupted", INTERRUPTED)
+    except ImportError as error:
+        ending = ended_by(error)
+        if ending is None:
+            raise
+        return ending if ending != INTERRUPTED else _complain("interrupted", INTERRUPTED)
     except MjcontError as error:
         return _complain(f"error: {error}", USER_ERROR)
     except OSError as error:

@@ -50,6 +50,20 @@ def _deliver(number: int, handler: Callable[[int, FrameType | None], Any] | int)
         os.kill(os.getpid(), number)
 
 
+def ended_by(error: BaseException | None) -> int | None:
+    """Return the status of a signal that an error tells of, None if it tells of none.
+
+    Compiled modules whose import a signal cuts short say that they could not be initialised, because of it.
+    """
+    while error is not None:
+        if isinstance(error, KeyboardInterrupt):
+            return 128 + signal.SIGINT
+        if isinstance(error, SystemExit):
+            return int(error.code or 0)
+        error = error.__cause__ or error.__context__
+    return None
+
+
 @contextmanager
 def termination_unwinds() -> Iterator[None]:
     """Let SIGTERM and SIGHUP raise SystemExit, so that what is open is cleaned up: children, journals, files."""

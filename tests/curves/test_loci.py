@@ -105,6 +105,7 @@ def test_the_hopf_curve_of_ab_goes_on_into_neutral_saddles_when_asked():
     assert np.abs(locus.eigenvalues[beyond].sum(axis=1)).max() < 1e-7
 
 
+@pytest.mark.long
 def test_the_hopf_curve_of_ab_is_the_same_from_its_other_hopf_point():
     for kind in ("BT", "GH"):
         one, other = only(hopfs_of_ab("HB1"), kind), only(hopfs_of_ab("HB2"), kind)

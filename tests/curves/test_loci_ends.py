@@ -52,6 +52,7 @@ def test_the_same_locus_is_the_same_to_the_bit():
     assert [p.coefficients for p in once.special_points] == [p.coefficients for p in again.special_points]
 
 
+@pytest.mark.long
 def test_points_of_a_locus_do_not_depend_on_the_step():
     fine = mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", bounds=(8.0, 40.0), ds_max=0.01)
     assert len(fine) > 1.5 * len(folds_of_ab())

@@ -312,6 +312,7 @@ def test_the_hopf_point_of_the_brusselator_has_frequency_A_and_coefficient_minus
 # -- Brusselator with diffusion ---------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_the_brusselator_with_diffusion_has_a_hopf_point_for_each_of_its_waves():
     n, (a, d_x, d_y) = 20, TUBE.values()
     mu = np.array([4.0 * (n + 1) ** 2 * math.sin(k * math.pi / (2 * (n + 1))) ** 2 for k in (1, 2, 3)])

@@ -94,6 +94,7 @@ def test_the_same_seed_gives_the_same_list_to_the_bit(gear_search):
     assert np.array_equal([p.state for p in again], [p.state for p in gear_search])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.long) for s in (2, 3, 4))])
 def test_another_seed_gives_the_same_equilibria_of_the_gear(gear_search, seed):
     other = find_equilibria(gear_with_gaps(), {"F_ret": 4e5}, region=CLOSED, seed=seed)

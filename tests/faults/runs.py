@@ -263,7 +263,11 @@ def _limited(trial: int, size: int, out: Path, reference: Reference) -> tuple[st
     command = _writing(trial, out, reference)
     there = {p.name for p in out.iterdir()}
     process = forked(command, out.with_name("said.txt"), size)
-    said = process.wait(PATIENCE)
+    try:
+        said = process.wait(PATIENCE)
+    except subprocess.TimeoutExpired:
+        process.send_signal(signal.SIGKILL)
+        return "hang", f"{command[3]} within {size} bytes"
     if there - {p.name for p in out.iterdir()}:
         return "lost", f"{command[3]} within {size} bytes: a file that was there is gone"
     return _judged(process.returncode, said, out, reference, f"{command[3]} within {size} bytes")
@@ -275,10 +279,13 @@ def _on_small_disk(trial: int, size: int, mounted: Path, reference: Reference) -
     command = _writing(trial, mounted, reference)
     mount = f"mount -t tmpfs -o size={size} tmpfs '{mounted}'"
     script = f"{mount} && \"$@\"; status=$?; cp -a '{mounted}' '{kept}'; exit $status"
-    done = subprocess.run(
-        ["unshare", "-m", "sh", "-c", script, "sh", *command], capture_output=True, text=True,
-        timeout=PATIENCE, check=False,
-    )
+    try:
+        done = subprocess.run(
+            ["unshare", "-m", "sh", "-c", script, "sh", *command], capture_output=True, text=True,
+            timeout=PATIENCE, check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return "hang", f"{command[3]} on a disk of {size} bytes"
     end, detail = _judged(done.returncode, done.stderr, mounted, reference, f"{command[3]} on a disk of {size} bytes")
     if end in ("fits", "refused") and (litter(kept) or reference.wrong(kept)):
         return "wrong", f"{command[3]} on a disk of {size} bytes: {litter(kept)} {reference.wrong(kept)}"

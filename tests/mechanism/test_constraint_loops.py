@@ -169,6 +169,7 @@ def test_pendulums_geared_by_a_joint_equality():
     assert check_folds(model_of(bodies, gears), lambda _: linkage, [1e3, 1e4, 1e5, 1e6], (-2.5, 2.5)) >= 2
 
 
+@pytest.mark.long
 def test_a_weight_on_a_rope_by_a_tendon_equality():
     # a rope from the crank's tip to a weight, over a pulley at (0.9, 1.1): its length stays
     pulley, tip = np.array([0.9, 1.1]), (0.0, 0.6)

@@ -107,6 +107,7 @@ def test_a_turntable_with_a_load_is_free_as_one():
     assert mc.find_equilibrium(mechanism).stability == "stable"
 
 
+@pytest.mark.long
 def test_equilibria_of_the_lever_are_told_apart_and_places_of_the_wheel_are_not():
     # an inverted pendulum on a soft spring: 2 (q - 0) = m g r sin q has three solutions
     lever = LEVER.format(WHEEL.format("0 0 .3", "")).replace("fromto=\"0 0 0 .3 0 0\"", 'fromto="0 0 0 0 0 .3"')

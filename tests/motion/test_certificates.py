@@ -120,6 +120,7 @@ def branch_with(branch, **changes):
     return replace(branch, **changes)
 
 
+@pytest.mark.long
 def test_points_too_slow_for_the_steps_allowed_are_unresolved_and_say_so():
     branch = curve("nose_gear_full")
     slow = [int(i) for i in np.flatnonzero(np.abs(branch.eigenvalues.real.max(axis=1)) < 1e-5)[:3]]

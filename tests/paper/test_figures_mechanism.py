@@ -113,6 +113,7 @@ def test_the_swept_load_takes_the_heavily_damped_mechanism_overcentre_where_it_d
     assert found == pytest.approx(reference_passages(10.0, 360.0), abs=3e-3)
 
 
+@pytest.mark.long
 def test_the_swept_load_takes_the_lightly_damped_mechanism_overcentre_where_it_does_by_hand():
     light = script(2).equilibria(script(2).overcentre(), c_sp=0.01)
     motion = mc.simulate(light.problem, {"F": script(2).load}, 75.0, light.row(len(light) - 1), samples=7500)

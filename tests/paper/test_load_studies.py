@@ -62,6 +62,7 @@ def test_findings_of_the_load_map_on_a_coarse_grid():
     assert all(f.holds for f in findings), [f.claim for f in findings if not f.holds]
 
 
+@pytest.mark.long
 def test_errors_of_the_linear_estimate_are_quadratic_case_by_case(few):
     at = {d.factor: d.found["F_ul"] - d.predicted["F_ul"] for d in few.draws}
     large = np.abs(at[2.0]) > 0.2 * np.abs(at[2.0]).max()
@@ -69,6 +70,7 @@ def test_errors_of_the_linear_estimate_are_quadratic_case_by_case(few):
     assert at[1.0][large] / at[0.5][large] == pytest.approx(4.0, rel=0.1)
 
 
+@pytest.mark.long
 def test_shares_of_the_spring_are_those_of_its_law(few):
     # Rigid pins: F_ul = k_sp (l - l_us) + the locklinks' weight, so its slopes are (l - l_us) and -k_sp.
     rigid = RigidGear.of(GEAR)

@@ -149,6 +149,7 @@ def test_the_locklinks_meet_the_stop_where_the_free_gear_rests_at_its_angle(stop
     assert "stop engages" in meets.note or "stop releases" in meets.note
 
 
+@pytest.mark.long
 def test_with_a_stop_the_gear_stays_locked_without_retraction_force(stopped, locked):
     assert np.all(locked.n_unstable == 0)
     assert locked["F_ret"].min() == 0.0

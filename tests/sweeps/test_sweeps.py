@@ -132,6 +132,7 @@ def test_a_case_that_fails_is_listed_with_its_sentence_and_the_rest_is_unharmed(
     assert np.isfinite(table["fold.F"][[0, 2]]).all()
 
 
+@pytest.mark.long
 def test_two_processes_give_the_table_of_one_to_the_bit(tmp_path: Path) -> None:
     for workers in (1, 2):
         mc.sweep(study(tmp_path), out=tmp_path / str(workers), workers=workers)
