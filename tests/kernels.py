@@ -23,6 +23,7 @@ ARM = ("ARMV8", "CortexA57", "NeoverseN1", "NeoverseN2", "NeoverseV1", "VORTEX")
 _ROOT = Path(__file__).resolve().parent.parent
 _NAMES = [f"{prefix}openblas_get_corename{suffix}" for prefix in ("scipy_", "") for suffix in ("64_", "")]
 _PROBE = "--probe"
+_SHARED = ("-n", "auto", "--dist", "loadfile", "--no-loadscope-reorder")
 
 
 @dataclass(frozen=True)
@@ -123,7 +124,7 @@ def table(results: Sequence[tuple[Case, bool, str]]) -> str:
 
 def suite(case: Case, arguments: Sequence[str]) -> tuple[Case, bool, str]:
     """Run the quick suite in a child process, its output shown as it comes, and return how it went."""
-    command = [sys.executable, "-m", "pytest", "-q", *(arguments or ["-n", "auto", "--dist", "loadfile"])]
+    command = [sys.executable, "-m", "pytest", "-q", *(arguments or _SHARED)]
     said = ""
     with subprocess.Popen(
         command, cwd=_ROOT, env={**os.environ, **case.variables}, stdout=subprocess.PIPE, text=True

@@ -159,18 +159,28 @@ def continue_equilibria(
         See their messages. Failure of the continuation itself is no exception but the branch's status.
     """
     directions = check_direction(direction)
+
+    def follow(scaled: Model) -> tuple[Branch, Model | None]:
+        prepared = _prepare(scaled, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
+        return _followed(prepared, directions, progress, "max_size" in options)
+
     with clock.limited(make_settings(options).max_seconds):
-        ran_off: Branch | None = None
-        for _ in range(_SCALES):
-            prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
-            branch, fitting = _followed(prepared, directions, progress, "max_size" in options)
-            ran_off = ran_off or (branch if _runs_off(branch) else None)
-            if fitting is None:
-                break
-            problem = fitting
-        if ran_off and (_runs_off(branch) or len(branch.special_points) < len(ran_off.special_points)):
-            branch = ran_off
+        branch = _in_its_scale(follow, problem)
     return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
+
+
+def _in_its_scale(follow: Callable[[Model], tuple[Branch, Model | None]], problem: Model) -> Branch:
+    """Return what is followed in the scale that its own states tell; the first that ran off, if that does not help."""
+    ran_off: Branch | None = None
+    for _ in range(_SCALES):
+        branch, fitting = follow(problem)
+        ran_off = ran_off or (branch if _runs_off(branch) else None)
+        if fitting is None:
+            break
+        problem = fitting
+    if ran_off and (_runs_off(branch) or len(branch.special_points) < len(ran_off.special_points)):
+        return ran_off
+    return branch
 
 
 def _runs_off(branch: Branch) -> bool:
