@@ -93,14 +93,24 @@ class Journal:
             raise self._cannot(error) from error
         try:
             self._lock()
-            self._read()
         except BaseException:
             os.close(self._handle)
+            raise
+        try:
+            self._read()
+        except BaseException:
+            self._close()
             raise
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         """Close the file."""
+        self._close()
+
+    def _close(self) -> None:
+        """Close the file; one into which not even a first line could be written is not left."""
+        if os.fstat(self._handle).st_size == 0:
+            self.path.unlink(missing_ok=True)
         os.close(self._handle)
 
     def _cannot(self, error: OSError) -> ResultFileError:

@@ -218,6 +218,8 @@ def test_a_start_without_an_equilibrium_is_an_error_that_says_where_it_looked():
         ({"ds": 1.0}, "0 < ds_min <= ds <= ds_max"),
         ({"angle": 1.0}, "angles must satisfy 0 < angle < angle_max"),
         ({"max_points": 1}, "max_points and max_corrections must be at least 2"),
+        ({"max_points": math.inf}, "max_points must be finite"),
+        ({"max_seconds": -1.0}, "max_seconds and max_arclength not negative, got 5000, -1 and inf"),
     ],
 )
 def test_settings_that_contradict_each_other_are_refused(options, message):

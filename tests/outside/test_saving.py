@@ -50,6 +50,28 @@ def test_what_does_not_fit_on_the_disk_leaves_the_old_file_and_no_other(tmp_path
     assert [p.read_bytes() for p in tmp_path.iterdir()] == [b"old"]
 
 
+JOURNAL = """
+import resource, sys
+from pathlib import Path
+from mjcont.errors import MjcontError
+from mjcont.sweeps.journal import Journal
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]),) * 2)
+try:
+    with Journal(Path(sys.argv[1]), {"what": "x" * 200, "identity": {}}, dict) as journal:
+        journal.add([{"case": 1, "values": "x" * 500}])
+except MjcontError as error:
+    print(error)
+"""
+
+
+@pytest.mark.parametrize(("size", "lines"), [(100, None), (600, 1), (5000, 2)])
+def test_a_journal_has_whole_lines_or_is_not_there(tmp_path: Path, size: int, lines: int | None) -> None:
+    target = tmp_path / "s.jsonl"
+    done = in_child(JOURNAL, target, size)
+    assert done.stdout == (f"cannot write {target}: File too large\n" if lines != 2 else "")
+    assert (target.read_bytes().count(b"\n") if target.exists() else None) == lines
+
+
 def test_a_full_device_is_named(tmp_path: Path) -> None:
     if not Path("/dev/full").exists():
         pytest.skip("this system has no /dev/full")

@@ -69,6 +69,11 @@ class Settings:
             raise ParameterError("max_points and max_corrections must be at least 2")
         if not (self.tol > 0 and self.max_size > 0):
             raise ParameterError(f"tol and max_size must be positive, got {self.tol:g}, {self.max_size:g}")
+        if not (self.max_points < math.inf and self.max_seconds >= 0 and self.max_arclength >= 0):
+            raise ParameterError(
+                f"max_points must be finite, max_seconds and max_arclength not negative, got {self.max_points:g}, "
+                f"{self.max_seconds:g} and {self.max_arclength:g}"
+            )
         if math.isinf(self.ds_max) or math.isinf(self.tol):
             raise ParameterError("ds_max and tol must be finite")
         if not self.chord >= SMALLEST_CHORD:
