@@ -50,13 +50,18 @@ if TYPE_CHECKING:
     from mjcont.motion.histories import simulate, simulate_many
     from mjcont.motion.loadpaths import load_path
     from mjcont.numerics.equations.settings import Settings
+    from mjcont.oscillation.cycles import continue_cycles
+    from mjcont.oscillation.forced import Harmonic
+    from mjcont.oscillation.responses import continue_response
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
     from mjcont.results.branch import Branch, Diagram
     from mjcont.results.certificates import Certificate
+    from mjcont.results.cycles import CycleBranch
     from mjcont.results.formats import load
     from mjcont.results.histories import History
     from mjcont.results.loadpaths import Jump, LoadPath, Segment
     from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
+    from mjcont.results.orbits import Orbit
     from mjcont.results.points import Column, Point, SpecialPoint
     from mjcont.results.search import Equilibria, Equilibrium
     from mjcont.results.sensitivities import Sensitivities
@@ -89,13 +94,18 @@ _HOMES = {
     "mjcont.motion.histories": ("simulate", "simulate_many"),
     "mjcont.motion.loadpaths": ("load_path",),
     "mjcont.numerics.equations.settings": ("Settings",),
+    "mjcont.oscillation.cycles": ("continue_cycles",),
+    "mjcont.oscillation.forced": ("Harmonic",),
+    "mjcont.oscillation.responses": ("continue_response",),
     "mjcont.results.barriers": ("Barrier", "BarrierCurve", "BarrierMap"),
     "mjcont.results.branch": ("Branch", "Diagram"),
     "mjcont.results.certificates": ("Certificate",),
+    "mjcont.results.cycles": ("CycleBranch",),
     "mjcont.results.formats": ("load",),
     "mjcont.results.histories": ("History",),
     "mjcont.results.loadpaths": ("Jump", "LoadPath", "Segment"),
     "mjcont.results.maps": ("FollowedPoint", "SpecialMap", "WorstCase"),
+    "mjcont.results.orbits": ("Orbit",),
     "mjcont.results.points": ("Column", "Point", "SpecialPoint"),
     "mjcont.results.search": ("Equilibria", "Equilibrium"),
     "mjcont.results.sensitivities": ("Sensitivities",),
@@ -117,11 +127,13 @@ __all__ = [
     "Certificate",
     "Column",
     "ConstraintStiffness",
+    "CycleBranch",
     "Diagram",
     "Equilibria",
     "Equilibrium",
     "FollowedPoint",
     "FunctionError",
+    "Harmonic",
     "History",
     "Jump",
     "LoadPath",
@@ -130,6 +142,7 @@ __all__ = [
     "ModelError",
     "ModelWarning",
     "NameLookupError",
+    "Orbit",
     "ParameterError",
     "Point",
     "ResultFileError",
@@ -153,7 +166,9 @@ __all__ = [
     "bifurcation_diagram",
     "bushed_xml",
     "constraint_stiffness",
+    "continue_cycles",
     "continue_equilibria",
+    "continue_response",
     "continue_special",
     "draw",
     "draw_poses",

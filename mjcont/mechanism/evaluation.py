@@ -80,15 +80,15 @@ class Evaluator:
         """Whether the forces are smooth in pieces only."""
         return self._constrained is not None or self._kinks is not None
 
-    def accelerations(self, qpos: Array, qvel: Array) -> Array:
-        """Return qacc for every row, (m, nv)."""
+    def accelerations(self, qpos: Array, qvel: Array, ctrl: Array | None = None) -> Array:
+        """Return qacc for every row, (m, nv); `ctrl` (m, nu) gives smooth models rows with controls of their own."""
         self.count += len(qpos)
         if self.writer.failure:
             return np.full((len(qpos), self.model.nv), np.nan)
         if self._constrained is not None:
             return self._constrained.accelerations(qpos, qvel, self.writer)
         rows = self._rows(len(qpos))
-        rows.forward(qpos, qvel, self.writer)
+        rows.forward(qpos, qvel, self.writer, ctrl)
         return rows.acceleration()
 
     def active(self, x: Array) -> frozenset[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Protocol
 
 from mjcont.errors import BoundsError, MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array, Equations, Values
@@ -89,7 +89,15 @@ def units(problem: Model) -> dict[str, str]:
     return found | {o.name: o.unit for o in problem.observables.values()}
 
 
-def check_bounds(problem: Model, name: str, bounds: tuple[float, float] | None) -> tuple[float, float]:
+class Parametrised(Protocol):
+    """What has named parameters: a model, or a motion of one."""
+
+    def parameter(self, name: str) -> Parameter:
+        """Return a parameter by its name."""
+        ...
+
+
+def check_bounds(problem: Parametrised, name: str, bounds: tuple[float, float] | None) -> tuple[float, float]:
     """Return the bounds of a parameter: those given, or its own.
 
     Raises

@@ -73,6 +73,11 @@ class Local:
         return self._jac
 
     @property
+    def linearization(self) -> Linearization:
+        """What the problem returned for it."""
+        return self._linearize()
+
+    @property
     def raw_jac(self) -> Any:
         """df/dx in physical units, (n, n)."""
         return self._linearize().jac
@@ -129,7 +134,10 @@ class Condition(ABC):
         """Return the equations' values, (count,)."""
 
     def gradient(self, local: Local, system: System, y: Array) -> Array | None:
-        """Return the derivatives over (x, free parameters), (count, n + number free); None: by differences."""
+        """Return the derivatives over (x, free parameters), (count, n + number free); None: by differences.
+
+        Columns of auxiliary unknowns may follow; they are zero where they do not.
+        """
         del local, system, y
         return None
 
@@ -256,7 +264,7 @@ class System:
         for c in self.conditions:
             gradient = c.gradient(local, self, y)
             if gradient is not None:
-                rows[at : at + c.count, : self.n + len(self.free)] = gradient
+                rows[at : at + c.count, : gradient.shape[1]] = gradient
             else:
                 rest.append((at, c))
             at += c.count

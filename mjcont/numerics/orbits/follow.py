@@ -1,0 +1,279 @@
+"""A curve of orbits, piece by piece: each piece on one mesh, walked by the driver; a new mesh where the old one fails.
+
+Points on a mesh that no longer resolves its orbits end a piece. The last orbit is carried to a mesh that does,
+corrected again, and the next piece begins there in the same direction.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mjcont.numerics.equations.newton import Corrected, correct, solve
+from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.refusals import Refused
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import System
+from mjcont.numerics.orbits.collocation import Orbits
+from mjcont.numerics.orbits.detectors import cycle_detectors
+from mjcont.numerics.orbits.flow import Flow
+from mjcont.numerics.orbits.mesh import count_for, equidistributed, error_of
+from mjcont.numerics.orbits.path import Path
+from mjcont.numerics.orbits.points import error_at, orbits_at, path_at
+from mjcont.numerics.orbits.scheme import Scheme
+from mjcont.numerics.points.events import Located
+from mjcont.numerics.step.arclength import CurvePoint, point_from
+from mjcont.numerics.walk.guard import guarded
+from mjcont.numerics.walk.onebyone import OneByOne
+from mjcont.numerics.walk.steps import End, Item, Neutral, Status
+from mjcont.numerics.walk.trace import Trace, Walker
+
+# a new mesh is to have this part of the tolerance, so that it lasts
+_LASTS = 0.1
+_MOST_MESHES = 6
+# an orbit smaller than this, relative to its sizes, or one that turned to its opposite, has shrunk to a point
+_SMALL, _OPPOSITE = 1e-5, -0.5
+# the phase condition is renewed where the orbit's velocity has turned from the reference's by more than this cosine
+_STALE = 0.8
+
+
+@dataclass(frozen=True, slots=True)
+class MeshSettings:
+    """How orbits are resolved.
+
+    Attributes
+    ----------
+    scheme : Scheme
+    first, most : int
+        Intervals to begin with, and at most.
+    tol : float
+        Error of the states at the mesh, relative, beyond which a finer mesh is laid.
+    period_max : float
+        Times the first period at which a curve ends.
+    fixed : bool
+        Whether the mesh stays as it is laid first.
+    """
+
+    scheme: Scheme
+    first: int = 20
+    most: int = 320
+    tol: float = 1e-9
+    period_max: float = 1e3
+    fixed: bool = False
+
+
+def laid(flow: Flow, path: Path, shift: Array) -> Orbits:
+    """Return the equations on an orbit's mesh, with that orbit as reference.
+
+    Sizes are its root mean squares, no less than the flow's scales; those of velocities follow the period.
+    """
+    squares, scale = 0.5 * (path.s[1:] ** 2 + path.s[:-1] ** 2), flow.scale.copy()
+    if flow.order == 2:
+        scale[flow.c :] = scale[: flow.c] * 2.0 * math.pi / path.period
+    sizes = np.maximum(np.sqrt(path.lengths @ squares), scale)
+    return Orbits(flow, path.scheme, path.mesh, path.slopes(path.mesh), shift, sizes, path.period)
+
+
+def carried_tangent(old: System, point: CurvePoint, new: Orbits) -> Array:
+    """Return a curve's tangent at a point as a direction (n + k,) on another mesh of the same orbit."""
+    orbits = orbits_at(point)
+    step = 1e-6 / max(float(np.abs(point.tangent).max()), 1e-300)
+    ends = []
+    for sign in (1.0, -1.0):
+        x, y = old.move(point.x, point.y, sign * step * point.tangent)
+        ends.append(new.joined(orbits.path(x, old.values(y)).carried(new.mesh)))
+    direction = np.concatenate([(ends[0] - ends[1]) / (2.0 * step) / new.state_scale, point.tangent[old.n :]])
+    found: Array = direction / np.linalg.norm(direction)
+    return found
+
+
+def orbit_near(
+    flow: Flow, path: Path, values: Values, shift: Array, meshes: MeshSettings
+) -> CurvePoint | None:
+    """Return the orbit near a path at parameter values, as a point; None where there is none."""
+    none = np.zeros(0)
+    for _ in range(_MOST_MESHES):
+        orbits: Orbits = laid(flow, path, shift)
+        system = System(orbits, values, ())
+        c = solve(system, orbits.joined(path), none, tol=1e-12, reach=10.0)
+        if c.failure is not None:
+            return None
+        path = orbits.path(c.x, values)
+        error = error_of(path, orbits.sizes)
+        if error <= meshes.tol or len(path.w) >= meshes.most or meshes.fixed:
+            return CurvePoint(c.x, none, none, 1.0, c.local, None, error=c.error)
+        count = min(max(count_for(path, error, _LASTS * meshes.tol), len(path.w)), meshes.most, 2 * len(path.w))
+        path = path.carried(equidistributed(path, orbits.sizes, count))
+    return None
+
+
+def entered(system: System, x: Array, y: Array, row: Array, settings: Settings, s: float = 0.0) -> CurvePoint | Refused:
+    """Return the point of a curve at which it is entered, in the direction `row` (n + k,)."""
+    c: Corrected = correct(system, x, y, row, None, settings)
+    return c.failure if c.failure is not None else point_from(c, row, s)
+
+
+@dataclass(slots=True)
+class Follower:
+    """Follows a curve of orbits in one direction.
+
+    Attributes
+    ----------
+    settings, meshes : of the walk, and of the meshes.
+    stop : ends the curve with a sentence where a user says so.
+    """
+
+    settings: Settings
+    meshes: MeshSettings
+    stop: Callable[[System, CurvePoint], str | None] | None = None
+    _wants: str = field(default="", init=False)
+    _ending: End | None = field(default=None, init=False)
+    _before: CurvePoint | None = field(default=None, init=False)
+
+    def follow(self, system: System, start: CurvePoint) -> Iterator[Item]:
+        """Yield the points after `start`, special points in their places, and the end."""
+        began, count, h = time.monotonic(), 1, self.settings.ds
+        longest = self.meshes.period_max * _period(start)
+        fresh = self._resolved(system, start)
+        if isinstance(fresh, End):
+            yield fresh
+            return
+        system, point = fresh
+        if point is not start:
+            yield point
+        while True:
+            self._wants, self._ending, self._before = "", None, point
+            left = replace(
+                self.settings, ds=h, ds_min=min(self.settings.ds_min, h),
+                max_points=max(self.settings.max_points - count + 1, 2),
+                max_seconds=self.settings.max_seconds - (time.monotonic() - began),
+            )
+            first = point
+            walker = Walker(
+                OneByOne(system, left, cycle_detectors(system, left)),
+                lambda p, system=system, first=first: self._look(system, p, first, longest),  # type: ignore[misc]
+            )
+            end: End | None = None
+            for item in walker.walk(point):
+                if isinstance(item, End):
+                    end = item
+                elif isinstance(item, CurvePoint):
+                    h, point, count = min(max(item.s - point.s, left.ds_min), left.ds_max), item, count + 1
+                    if self._ending is None or self._ending.status is not Status.AT_REST:
+                        yield item
+                else:
+                    yield item
+            assert end is not None
+            if not self._wants:
+                yield self._ending or end
+                return
+            again = self._resolved(system, point)
+            if isinstance(again, End):
+                yield again
+                return
+            system, point = again
+            yield point
+
+    def _look(self, system: System, p: CurvePoint, first: CurvePoint, longest: float) -> str | None:
+        """Return why a piece ends at a point, None where it goes on."""
+        if p is first:
+            return None
+        before, self._before = self._before, p
+        sentence = self.stop(system, p) if self.stop is not None else None
+        if sentence:
+            self._ending = End(Status.STOPPED, sentence)
+        elif before is not None and _shrunk(before, p):
+            self._ending = End(Status.AT_REST, "the orbit shrinks to a point")
+        elif orbits_at(p).own_period and _period(p) > longest:
+            self._ending = End(Status.PERIOD, f"the period {_period(p):.6g} s exceeds {self.meshes.period_max:g} times "
+                               "the first: a homoclinic orbit or a saddle-node on the cycle is near")
+        elif error_at(p) > self.meshes.tol and not self.meshes.fixed:
+            self._wants = "mesh"
+        elif _stale(p):
+            self._wants = "phase"
+        return (self._ending.message if self._ending else self._wants) or None
+
+    def _resolved(self, system: System, point: CurvePoint) -> tuple[System, CurvePoint] | End:
+        """Return the point on a mesh that resolves it, with its system; itself where it is resolved."""
+        for _ in range(_MOST_MESHES):
+            error, orbits = error_at(point), orbits_at(point)
+            if self.meshes.fixed or (error <= self.meshes.tol and not _stale(point)):
+                return system, point
+            path, count = path_at(point), orbits.intervals
+            if error > self.meshes.tol:
+                if count >= self.meshes.most:
+                    return End(Status.MESH, f"the orbit's error {error:.1e} exceeds {self.meshes.tol:g} on the largest "
+                               f"mesh ({count} intervals)")
+                trial = path.carried(equidistributed(path, orbits.sizes, count))
+                wanted = count_for(trial, error_of(trial, orbits.sizes), _LASTS * self.meshes.tol)
+                count = min(max(wanted, self.meshes.first), 2 * count, self.meshes.most)
+            carried = path.carried(equidistributed(path, orbits.sizes, count))
+            other = laid(orbits.flow, carried, orbits.shift)
+            moved = System(other, system.base, system.free)
+            row = carried_tangent(system, point, other)
+            found = entered(moved, other.joined(carried), point.y, row, self.settings, point.s)
+            if isinstance(found, Refused):
+                return End(Status.MESH, f"the orbit was lost where its mesh was laid anew: {found}")
+            system, point = moved, found
+        return system, point
+
+
+def _period(p: CurvePoint) -> float:
+    return path_at(p).period
+
+
+def _deviation(p: CurvePoint) -> Array:
+    """Return the states at the mesh less their mean, relative to their sizes."""
+    orbits = orbits_at(p)
+    s = path_at(p).s
+    mean = orbits.lengths @ (0.5 * (s[1:] + s[:-1]))
+    found: Array = (s - mean - orbits.mesh[:, None] * orbits.shift) / orbits.sizes
+    return found
+
+
+def _shrunk(before: CurvePoint, after: CurvePoint) -> bool:
+    """Whether an orbit of a free period passed through a point: it comes out opposite to what it went in."""
+    if not orbits_at(after).own_period or orbits_at(after).shift.any():
+        return False
+    a, b = _deviation(before), _deviation(after)
+    if a.shape != b.shape:
+        return False
+    sizes = float(np.linalg.norm(a) * np.linalg.norm(b))
+    return bool(np.abs(b).max() < _SMALL) or float((a * b).sum()) < _OPPOSITE * sizes
+
+
+def _stale(p: CurvePoint) -> bool:
+    """Whether the reference of the phase condition no longer tells the phase."""
+    orbits = orbits_at(p)
+    if not orbits.own_period:
+        return False
+    slopes = path_at(p).slopes(orbits.mesh[:-1]) / orbits.sizes
+    reference = orbits.reference[:-1] / orbits.sizes
+    size = float(np.linalg.norm(slopes) * np.linalg.norm(reference))
+    return float((slopes * reference).sum()) < _STALE * size
+
+
+def trace_orbits(
+    follower: Follower, system: System, start: CurvePoint, progress: Callable[[Item], None] | None = None
+) -> Trace:
+    """Collect a curve of orbits in one direction; an interrupt (Ctrl-C) ends it and keeps what there is."""
+    result = Trace([start])
+    try:
+        for item in guarded(follower.follow(system, start)):
+            if isinstance(item, End):
+                result.end = item
+            elif isinstance(item, Located):
+                result.special.append(item)
+            elif not isinstance(item, Neutral):
+                if item.s == result.points[-1].s:  # the same orbit on a better mesh
+                    result.points.pop()
+                result.points.append(item)
+            if progress is not None:
+                progress(item)
+    except KeyboardInterrupt:
+        result.end = End(Status.INTERRUPTED, f"stopped by the user after {len(result.points)} points")
+    return result
