@@ -56,12 +56,11 @@ if TYPE_CHECKING:
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
     from mjcont.results.branch import Branch, Diagram
     from mjcont.results.certificates import Certificate
-    from mjcont.results.cycles import CycleBranch
     from mjcont.results.formats import load
     from mjcont.results.histories import History
     from mjcont.results.loadpaths import Jump, LoadPath, Segment
     from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
-    from mjcont.results.orbits import Orbit
+    from mjcont.results.orbits import CycleBranch, Orbit
     from mjcont.results.points import Column, Point, SpecialPoint
     from mjcont.results.search import Equilibria, Equilibrium
     from mjcont.results.sensitivities import Sensitivities
@@ -100,12 +99,11 @@ _HOMES = {
     "mjcont.results.barriers": ("Barrier", "BarrierCurve", "BarrierMap"),
     "mjcont.results.branch": ("Branch", "Diagram"),
     "mjcont.results.certificates": ("Certificate",),
-    "mjcont.results.cycles": ("CycleBranch",),
     "mjcont.results.formats": ("load",),
     "mjcont.results.histories": ("History",),
     "mjcont.results.loadpaths": ("Jump", "LoadPath", "Segment"),
     "mjcont.results.maps": ("FollowedPoint", "SpecialMap", "WorstCase"),
-    "mjcont.results.orbits": ("Orbit",),
+    "mjcont.results.orbits": ("CycleBranch", "Orbit"),
     "mjcont.results.points": ("Column", "Point", "SpecialPoint"),
     "mjcont.results.search": ("Equilibria", "Equilibrium"),
     "mjcont.results.sensitivities": ("Sensitivities",),

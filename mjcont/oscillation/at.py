@@ -12,8 +12,7 @@ from mjcont.numerics.orbits.path import Path
 from mjcont.oscillation.collect import make_orbit, verdict
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.walks import flow_for
-from mjcont.results.cycles import CycleBranch
-from mjcont.results.orbits import Orbit, OrbitPoint
+from mjcont.results.orbits import CycleBranch, Orbit, OrbitPoint
 
 
 @np.errstate(all="ignore")

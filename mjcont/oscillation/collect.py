@@ -22,8 +22,7 @@ from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.walk.steps import Item
 from mjcont.numerics.walk.trace import Trace
 from mjcont.oscillation.flows import ModelFlow
-from mjcont.results.cycles import CycleBranch, readings, special_orbit
-from mjcont.results.orbits import Orbit
+from mjcont.results.orbits import CycleBranch, Orbit, readings, special_orbit
 from mjcont.results.points import Column, show
 from mjcont.results.provenance import provenance
 

@@ -13,8 +13,8 @@ from mjcont.numerics.equations.system import System
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.starts import harmonic_orbit, hopf_vector
 from mjcont.oscillation.walks import Options, Stop, flow_of, read_options, run
-from mjcont.results.cycles import CYCLES, CycleBranch
 from mjcont.results.model import check_bounds
+from mjcont.results.orbits import CYCLES, CycleBranch
 from mjcont.results.points import SpecialPoint
 
 # size of the first orbit beside a Hopf point, relative to the state's scales

@@ -11,15 +11,17 @@ from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction, start_from
 from mjcont.errors import BoundsError, ParameterError, StartError
 from mjcont.numerics.equations.free import Free
+from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import System
+from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.follow import laid, orbit_near
 from mjcont.numerics.orbits.points import path_at
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import FREQUENCY, Harmonic, check_forcing, check_inputs, make_forcing
 from mjcont.oscillation.starts import response_path
-from mjcont.oscillation.walks import Stop, flow_of, read_options, run
-from mjcont.results.cycles import RESPONSES, CycleBranch
+from mjcont.oscillation.walks import Options, Stop, flow_of, read_options, run
 from mjcont.results.model import Model, check_bounds
+from mjcont.results.orbits import RESPONSES, CycleBranch
 from mjcont.results.points import Point, show
 from mjcont.vectorfield import VectorField
 
@@ -45,14 +47,14 @@ def continue_response(
     Parameters
     ----------
     problem : Mechanism or VectorField
-        A field with a `period` is forced as it stands; otherwise `forcing` says how.
+        A field with a `period` is forced as it stands.
     parameter : str
         The parameter to vary: "frequency" (1 / period, Hz), "NAME.amplitude" or "NAME.phase" of an input, or any
         parameter of the model; that of an input is its mean.
     bounds : (low, high), optional
         Its range; default the parameter's own.
     forcing : mapping of parameter to Harmonic
-        What moves in time.
+        What moves in time, unless the field has a period.
     start : dict of parameter values, or a point of any result
         Other parameters keep the model's values.
     frequency : float, optional
@@ -73,6 +75,25 @@ def continue_response(
     """
     flow, values = _driven(problem, parameter, bounds, forcing, start, frequency)
     read = read_options(flow, options)
+    low, high = _range(flow, parameter, bounds, values)
+    unit = flow.parameter(parameter).unit
+    x, _ = start_from(problem, None, keyframe, start.state if isinstance(start, Point) and state is None else state)
+    orbits, x = _first(flow, x, values, read)
+    system = System(orbits, values, [Free(parameter, low, high, unit)])
+    entries = [(sign, x, system.start_y(), None) for sign in check_direction(direction)]
+    return run(RESPONSES, system, entries, read, "the motion settled from its start", stop, progress)
+
+
+def _range(
+    flow: ModelFlow, parameter: str, bounds: tuple[float, float] | None, values: dict[str, float]
+) -> tuple[float, float]:
+    """Return the bounds of the free parameter.
+
+    Raises
+    ------
+    BoundsError
+        If the start lies outside, or an input would leave its range within them.
+    """
     low, high = check_bounds(flow, parameter, bounds)
     unit = flow.parameter(parameter).unit
     if not low <= values[parameter] <= high:
@@ -81,20 +102,26 @@ def continue_response(
             f"{show(high, unit)}: give start={{'{parameter}': ...}} inside them"
         )
     if flow.forcing is not None:
-        for end in (low, high, values[parameter]):
-            check_inputs(problem, flow.forcing, {**values, parameter: end})
-    x, _ = start_from(problem, None, keyframe, start.state if isinstance(start, Point) and state is None else state)
-    path = response_path(flow, x, values, read.meshes)
-    first = orbit_near(flow, path, values, np.zeros(flow.d), read.meshes)
-    if first is None:
-        at = f"{parameter} = {show(values[parameter], unit)}"
-        raise StartError(f"no periodic response found at the start, {at}: give state=, or begin at a smaller amplitude")
-    path = path_at(first)
-    orbits = laid(flow, path, np.zeros(flow.d))
-    system = System(orbits, values, [Free(parameter, low, high, unit)])
-    x, y = orbits.joined(path), system.start_y()
-    entries = [(sign, x, y, None) for sign in check_direction(direction)]
-    return run(RESPONSES, system, entries, read, "the motion settled from its start", stop, progress)
+        for end in (low, high):
+            check_inputs(flow.model, flow.forcing, {**values, parameter: end})
+    return low, high
+
+
+def _first(flow: ModelFlow, x: Array, values: dict[str, float], read: Options) -> tuple[Orbits, Array]:
+    """Return the response near a state, with the equations on its mesh.
+
+    Raises
+    ------
+    StartError
+        If there is none.
+    """
+    shift = np.zeros(flow.d)
+    point = orbit_near(flow, response_path(flow, x, values, read.meshes), values, shift, read.meshes)
+    if point is None:
+        raise StartError("no periodic response found at the start: give state=, or begin at a smaller amplitude")
+    path = path_at(point)
+    orbits = laid(flow, path, shift)
+    return orbits, orbits.joined(path)
 
 
 def _driven(

@@ -23,9 +23,8 @@ from mjcont.oscillation.collect import collect, make_orbit, reporter, verdict
 from mjcont.oscillation.fields import FieldFlow
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import Forcing, Harmonic, make_forcing
-from mjcont.results.cycles import CycleBranch
 from mjcont.results.model import Model
-from mjcont.results.orbits import OrbitPoint
+from mjcont.results.orbits import CycleBranch, OrbitPoint
 from mjcont.vectorfield import VectorField
 
 # the corrector's: multipliers are read off derivatives at its last iterate

@@ -163,13 +163,12 @@ class Follower:
                     end = item
                 elif isinstance(item, CurvePoint):
                     h, point, count = min(max(item.s - point.s, left.ds_min), left.ds_max), item, count + 1
-                    if self._ending is None or self._ending.status is not Status.AT_REST:
-                        yield item
+                    yield item
                 else:
                     yield item
             assert end is not None
             if not self._wants:
-                yield self._ending or end
+                yield self._ended(end)
                 return
             again = self._resolved(system, point)
             if isinstance(again, End):
@@ -177,6 +176,10 @@ class Follower:
                 return
             system, point = again
             yield point
+
+    def _ended(self, end: End) -> End:
+        """Return the end that was noticed on the way, or how the walk says that it ended."""
+        return self._ending or end
 
     def _look(self, system: System, p: CurvePoint, first: CurvePoint, longest: float) -> str | None:
         """Return why a piece ends at a point, None where it goes on."""
@@ -266,6 +269,8 @@ def trace_orbits(
         for item in guarded(follower.follow(system, start)):
             if isinstance(item, End):
                 result.end = item
+                if item.status is Status.AT_REST and len(result.points) > 1:  # the orbit beyond is one seen before
+                    result.points.pop()
             elif isinstance(item, Located):
                 result.special.append(item)
             elif not isinstance(item, Neutral):

@@ -62,7 +62,7 @@ def equidistributed(path: Path, sizes: Array, count: int) -> Array:
 def first_mesh(samples: Array, tau: Array, count: int) -> Array:
     """Return a mesh of `count` intervals on which samples (k, d) at tau (k,) move by about equal lengths."""
     spread = np.linalg.norm(np.diff(samples, axis=0) / np.maximum(np.ptp(samples, axis=0), 1e-300), axis=1)
-    return _levelled(tau, spread + 0.5 * spread.sum() * np.diff(tau), count)
+    return _levelled(tau, spread + 0.5 * (spread.sum() or 1.0) * np.diff(tau), count)  # rest moves nowhere
 
 
 def _levelled(mesh: Array, shares: Array, count: int) -> Array:
