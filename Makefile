@@ -20,7 +20,8 @@ STAMP_TEXT = printf '%s\n' "$(CURDIR)" "$(PYTHON)"
 FRESH := $(shell $(BIN)/python -c 'import pip' 2>/dev/null && $(STAMP_TEXT) | cmp -s - $(STAMP) && echo yes)
 
 .DEFAULT_GOAL := help
-.PHONY: help env reproduce reproduce-fast test test-long test-shaken test-kernels thirdparty test-thirdparty bench clean FORCE
+.PHONY: help env reproduce reproduce-fast test test-long test-fuzz test-shaken test-kernels test-faults thirdparty \
+	test-thirdparty bench clean FORCE
 
 help: ## list these targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 # \2/p' $(MAKEFILE_LIST) | awk -F' # ' '{ printf "%-23s %s\n", $$1, $$2 }'
@@ -42,11 +43,17 @@ test: env ## lint, rooms, types and tests
 test-long: env ## the tests that take minutes
 	$(BIN)/pytest -q -n auto -m "long and not thirdparty"
 
+test-fuzz: env ## many random problems whose special points and stability are known, seeds printed
+	$(BIN)/pytest -q -n auto -m fuzz
+
 test-shaken: env ## special points and stability under noise as large as rounding, ten seeds (one: SEED=3)
 	$(BIN)/pytest -q -n auto --dist loadgroup -m shaken $(if $(SEED),-k seed$(SEED))
 
 test-kernels: env ## the tests under every BLAS kernel that this processor can run (minutes each)
 	$(BIN)/python tests/kernels.py
+
+test-faults: env ## damaged files, full disks, kills: whole campaigns (a tenth is in make test); SEED=0
+	cd tests && ../$(BIN)/python -m faults --seed $(or $(SEED),0)
 
 thirdparty: env ## download models from other packages, in .thirdparty
 	@$(BIN)/python tests/problems/thirdparty.py

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
-from mjcont.results.files import write_atomically
+from mjcont.outside.saving import write_file
 
 FAILED, MISSING = "failed", "missing"
 
@@ -103,7 +103,7 @@ class Book:
         """Write the file anew, whole or not at all."""
         self.path.parent.mkdir(parents=True, exist_ok=True)
         text = json.dumps(self.result, indent=1) + "\n"
-        write_atomically(self.path, lambda temporary: temporary.write_text(text))
+        write_file(self.path, text)
 
     @staticmethod
     def _print(lines: Sequence[str]) -> None:

@@ -24,6 +24,7 @@ from mjcont.errors import (
     NameLookupError,
     ParameterError,
     ResultFileError,
+    ResultWarning,
     StartError,
     StudyError,
 )
@@ -144,6 +145,7 @@ __all__ = [
     "ParameterError",
     "Point",
     "ResultFileError",
+    "ResultWarning",
     "Segment",
     "Sensitivities",
     "Settings",

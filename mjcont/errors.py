@@ -49,6 +49,10 @@ class ModelWarning(UserWarning):
     """A feature of a model that is left out, with the reason."""
 
 
+class ResultWarning(UserWarning):
+    """A stored result whose damage would not be seen: it was written without checksums."""
+
+
 def leaves_domain(error: Exception) -> bool:
     """Whether a user's function has no value there, by overflow, division by zero or a root of a negative number."""
     words = ("math domain", "nonnegative", "positive input")

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import copy
 import inspect
+import threading
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from scipy import sparse
 
 from mjcont.errors import FunctionError, MjcontError, ParameterError, leaves_domain, unknown_name
+from mjcont.numerics.equations.clock import check
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
     PARAMETER,
@@ -19,7 +22,21 @@ from mjcont.numerics.equations.differences import (
 )
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.model import Model
-from mjcont.results.quantities import Observable, Parameter, default_bounds, finite, finite_array, finite_pair
+from mjcont.results.quantities import (
+    Observable,
+    Parameter,
+    default_bounds,
+    finite,
+    finite_array,
+    finite_pair,
+    own_observable,
+    told_apart,
+)
+
+# a scale is far from the sizes of components by this factor; no component's is below this part of the largest
+_FAR, _LEAST = 20.0, 1e-3
+# components all below this part of the scale are zero, as far as equations without a scale can tell
+_NOTHING = 1e-8
 
 
 class VectorField(Model):
@@ -41,7 +58,8 @@ class VectorField(Model):
     units : mapping of str to str, optional
         Units of parameters and components, by name.
     scale : array_like, (n,), optional
-        Typical size of each component, for arclength and difference steps; default 1.
+        Typical size of each component, for arclength and difference steps. Without it the verbs that follow curves
+        start from 1 and take the sizes that the components are found to have, where these are far from it.
     bounds : mapping of str to (low, high), optional
         Default range of each parameter.
     period : callable, optional
@@ -56,7 +74,6 @@ class VectorField(Model):
     """
 
     second_order = False
-    evaluations = 0
     state_labels: list[tuple[str, str]] = []
 
     def __init__(
@@ -83,7 +100,9 @@ class VectorField(Model):
         self.state_scale = np.ones(self.n) if scale is None else finite_array("scale", scale, (self.n,))
         if not np.all(self.state_scale > 0.0):
             raise ParameterError(f"scale must be positive, got {self.state_scale}")
-        self.evaluations = 0
+        self.follows_scale = scale is None
+        # by thread: what one computes costs what that one evaluates; shared with copies of another scale
+        self._counts: dict[int, int] = {}
         units, bounds = units or {}, bounds or {}
         for k in bounds:
             if k not in parameters:
@@ -101,9 +120,11 @@ class VectorField(Model):
         if len(labels) != self.n:
             raise ParameterError(f"names: expected {self.n} names for the components of u, got {len(labels)}")
         self.state_labels = [(label, units.get(label, "")) for label in labels]
-        self.observables = {
-            label: Observable(label, unit, _component(i)) for i, (label, unit) in enumerate(self.state_labels)
+        components = {
+            label: Observable(label, unit, _component(i), of="state")
+            for i, (label, unit) in enumerate(self.state_labels)
         }
+        self.observables = told_apart(components, self.parameters)
         self.keyframes: dict[str, Array] = {}
 
     def values(self, given: Values | None = None) -> dict[str, float]:
@@ -112,12 +133,32 @@ class VectorField(Model):
             self.parameter(name).check(value)
         return {n: p.value for n, p in self.parameters.items()} | {n: float(v) for n, v in (given or {}).items()}
 
+    def rescaled(self, sizes: Array, *, grow: bool = False) -> Self | None:
+        """Return this field with the scale that sizes of its components (n,) tell, unless one was given."""
+        top = float(sizes.max())
+        if not (self.follows_scale and 0.0 < top < np.inf):
+            return None
+        ratio = sizes / self.state_scale
+        if not np.any(ratio > _NOTHING):  # rest at zero, but for rounding
+            return None
+        if not (np.any(ratio > _FAR) or (not grow and np.all(ratio < 1.0 / _FAR))):
+            return None
+        field = copy.copy(self)
+        # to two digits: no last bit decides; a component that hardly moves tells nothing
+        field.state_scale = np.array([float(f"{max(s, _LEAST * top):.1e}") for s in sizes.tolist()])
+        return field
+
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return the state given, or u0."""
         if keyframe is not None:
             raise unknown_name("keyframe", keyframe, self.keyframes)
         labels = [name for name, _ in self.state_labels]
         return self.u0.copy() if state is None else finite_array("state", state, (self.n,), labels=labels)
+
+    @property
+    def evaluations(self) -> int:
+        """Evaluations of the function so far, by this thread."""
+        return self._counts.get(threading.get_ident(), 0)
 
     # -- the problem -----------------------------------------------------------------------------------------
 
@@ -127,7 +168,9 @@ class VectorField(Model):
 
     def rate(self, x: Array, values: Values, time: float) -> Array:
         """Return f at a time, in s, (n,), as `residual`."""
-        self.evaluations += 1
+        check()
+        thread = threading.get_ident()
+        self._counts[thread] = self._counts.get(thread, 0) + 1
         try:
             found = np.array(self.function(x, values, time) if self.timed else self.function(x, values), dtype=float)
         except MjcontError:
@@ -201,7 +244,7 @@ class VectorField(Model):
 
     def observe(self, name: str, function: Callable[[Array, Values], float], unit: str = "") -> None:
         """Add an observable computed by `function(u, p)`."""
-        self.observables[name] = Observable(name, unit, lambda values, x: function(x, values))
+        self.observables[name] = own_observable(name, unit, lambda values, x: function(x, values), self.parameters)
 
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables for states (m, n), shape (m, number of names)."""

@@ -105,7 +105,7 @@ def _same_stability(light: list[mc.Branch], heavy: list[mc.Branch]) -> Finding:
         "Nor does it change which equilibria are stable, judged by all 30 eigenvalues, not by the stiffness alone.",
         f"{'; '.join(shown)} in both panels; stability changes at the folds only, at angles that differ by {apart:.1g} "
         "deg",
-        words[0] == words[1] and apart < 1e-8 and light[0].eigenvalues.shape[1] == 2 * light[0].problem.n,
+        words[0] == words[1] and apart < 1e-8 and len(light[0].row(0).eigenvalues) == 2 * light[0].problem.n,
     )
 
 
@@ -113,7 +113,8 @@ def _no_hopf(diagrams: list[list[mc.Branch]]) -> Finding:
     kinds = [sorted({p.kind for b in branches for p in b.special_points}) for branches in diagrams]
     slowest = []
     for branches in diagrams:
-        eigenvalues = np.concatenate([b.eigenvalues[b.stability != "unstable"].ravel() for b in branches])
+        resting = [b.spectra.rows(np.flatnonzero(b.stability != "unstable").tolist()) for b in branches]
+        eigenvalues = np.concatenate([e for rows in resting for e in rows])
         moving = eigenvalues[np.abs(eigenvalues.imag) > 1e-3]
         slowest.append(moving[np.argmax(moving.real)])
     shown = [f"c_j = {c:g}: {', '.join(k)}" for c, k in zip(DAMPING, kinds, strict=True)]

@@ -62,24 +62,23 @@ class FoldCurve:
 
 @dataclass(frozen=True)
 class Slice:
-    """The equilibria near uplock at one stiffness, with the curves of the folds FP1, FP2, FP3."""
+    """The equilibria near uplock at one stiffness, beside the curves of the folds FP1, FP2, FP3."""
 
     k_j: float
     curves: Sequence[FoldCurve]
     branches: Sequence[mc.Branch]
 
     @classmethod
-    def of(cls, folds: Sequence[mc.SpecialPoint], k_j: float) -> Slice:
-        """Follow the folds in stiffness, and the branches through all folds met at k_j, each branch once."""
-        loci = [whole(mc.continue_special(p, "k_j", SPAN, zeros={"k_j": k_j}, ds_max=0.03)) for p in folds]
-        starts = [p for locus in loci for p in locus.of_kind("UZ")]
-        diagram = mc.bifurcation_diagram(folds[0].problem, "F_ret", BOUNDS, starts, zeros={"theta_ov": 0.0})
-        return cls(k_j, [FoldCurve(locus) for locus in loci], [whole(b) for b in diagram])
+    def of(cls, curves: Sequence[FoldCurve], k_j: float) -> Slice:
+        """Follow the branches through all folds met at k_j, each once."""
+        starts = [p for c in curves for p in _at(c.locus.of_kind("UZ"), k_j)]
+        diagram = mc.bifurcation_diagram(starts[0].problem, "F_ret", BOUNDS, starts, zeros={"theta_ov": 0.0})
+        return cls(k_j, curves, [whole(b) for b in diagram])
 
     @property
     def named(self) -> list[mc.SpecialPoint]:
         """FP1, FP2, FP3 at this stiffness: the first met when stiff joints are softened."""
-        return [c.of_kind("UZ")[0] for c in self.curves]
+        return [_at(c.of_kind("UZ"), self.k_j)[0] for c in self.curves]
 
     @property
     def folds(self) -> list[mc.SpecialPoint]:
@@ -90,7 +89,7 @@ class Slice:
     @property
     def foreign(self) -> list[mc.SpecialPoint]:
         """The folds that lie on none of the three loci."""
-        known = [p["theta_ov"] for c in self.curves for p in c.locus.of_kind("UZ")]
+        known = [p["theta_ov"] for c in self.curves for p in _at(c.locus.of_kind("UZ"), self.k_j)]
         return [p for p in self.folds if min(abs(p["theta_ov"] - t) for t in known) > 1e-6]
 
     @property
@@ -112,10 +111,16 @@ class Slice:
 def main(out: Path) -> list[Finding]:
     """Draw the figure into a folder and return its findings."""
     folds = stiff_folds(mc.Mechanism.from_xml("nose_gear_full"))
-    slices = [Slice.of(folds, k) for k in STIFFNESS]
+    curves = softened(folds)
+    slices = [Slice.of(curves, k) for k in STIFFNESS]
     _draw(slices, out)
     soft, middle, stiff = slices
     return [_turns(soft.curves), _single(soft.curves), _additional(soft, stiff), _wrong(slices), _same(middle, stiff)]
+
+
+def _at(points: Sequence[mc.SpecialPoint], k_j: float) -> list[mc.SpecialPoint]:
+    """Return those of some points that lie at a stiffness."""
+    return [p for p in points if abs(p["k_j"] / k_j - 1.0) < 1e-9]
 
 
 def inside(branch: mc.Branch) -> Array:
@@ -128,6 +133,12 @@ def stiff_folds(gear: mc.Mechanism) -> list[mc.SpecialPoint]:
     diagram = mc.bifurcation_diagram(gear, "F_ret", BOUNDS, {"F_ret": 20.0}, keyframes=KEYFRAMES)
     found = [p for b in diagram for p in whole(b).of_kind("LP") if p["theta_1"] < WINDOW]
     return sorted(found, key=lambda p: -p["theta_ov"])
+
+
+def softened(folds: Sequence[mc.SpecialPoint]) -> list[FoldCurve]:
+    """Return the curves of folds in stiffness."""
+    loci = [mc.continue_special(p, "k_j", SPAN, zeros={"k_j": STIFFNESS}, ds_max=0.03) for p in folds]
+    return [FoldCurve(whole(locus)) for locus in loci]
 
 
 def _draw(slices: Sequence[Slice], out: Path) -> None:

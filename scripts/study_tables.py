@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from mjcont.outside.saving import write_file
 from mjcont.studies.keys import Key, Kind
 from mjcont.studies.tables import KINDS, PLOT
 from mjcont.studies.waveforms import SHAPES
@@ -57,4 +58,4 @@ def rewritten(page: str) -> str:
 
 
 if __name__ == "__main__":
-    DOCS.write_text(rewritten(DOCS.read_text(encoding="utf-8")), encoding="utf-8")
+    write_file(DOCS, rewritten(DOCS.read_text(encoding="utf-8")))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from functools import cache
 
 import pytest
@@ -10,6 +11,8 @@ from problems.reference import BOUNDS, START
 import mjcont as mc
 from mjcont.numerics.walk import guard
 
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # in the background: what tests start would be deaf
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 guard.raise_unexpected(True)  # what a user meets as a status is a failure here
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from pathlib import Path
+
+from mjcont.outside.terminal import Live, live_stream
 
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
@@ -31,26 +32,22 @@ def run(args: argparse.Namespace, say: Callable[[str], None]) -> int:
     from mjcont.results.formats import load
 
     out = Path(args.out) if args.out else Path(args.file).with_suffix(".gif")
-    live = sys.stderr is not None and sys.stderr.isatty()
+    stream = live_stream()
+    live = Live(stream) if stream is not None else None
     result, on = load(args.file), [load(b) for b in args.on or []]
     try:
         animate(
             result, out, args.x, args.y, on=on, fps=args.fps, seconds=args.seconds, size=args.size,
             degrees=args.degrees, plane=args.plane, rendering=args.rendering, camera=args.camera,
-            progress=_show if live else None,
+            progress=(lambda done, count: live.show(f"frame {done} of {count}")) if live is not None else None,
         )
     except MjcontError as error:
         raise type(error)(f"'{args.file}': {error}") from error
     finally:
-        if live:
-            sys.stderr.write("\r\x1b[K")
+        if live is not None:
+            live.show()
     say(f"animation: {out}")
     return 0
-
-
-def _show(done: int, count: int) -> None:
-    sys.stderr.write(f"\r\x1b[Kframe {done} of {count}")
-    sys.stderr.flush()
 
 
 def _size(text: str) -> tuple[int, int]:

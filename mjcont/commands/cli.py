@@ -6,8 +6,6 @@ What a command needs is imported when it runs, so `mjcont --help` is quick.
 from __future__ import annotations
 
 import argparse
-import os
-import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,7 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from mjcont.commands import animate
 from mjcont.commands.arguments import parser
-from mjcont.errors import MjcontError, ResultFileError
+from mjcont.errors import MjcontError, ModelError, ResultFileError
+from mjcont.outside.interrupts import termination_unwinds
+from mjcont.outside.saving import check_writable
+from mjcont.outside.terminal import complain, live_stream, say
 from mjcont.results.quantities import FRICTION
 
 if TYPE_CHECKING:
@@ -37,11 +38,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0; 1 if a figure could not be reproduced; 2 after a user's error; 130 if interrupted.
+        0; 1 if a figure could not be reproduced; 2 after a user's error; 130 if interrupted (143 by SIGTERM).
     """
     args = parser(_COMMANDS).parse_args(argv)
     try:
-        return int(args.command(args))
+        with termination_unwinds():
+            return int(args.command(args))
     except KeyboardInterrupt:
         return _complain("interrupted", INTERRUPTED)
     except MjcontError as error:
@@ -51,16 +53,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _complain(f"error: {place}{error.strerror or error}", USER_ERROR)
 
 
-def say(text: str = "") -> None:
-    """Print a line at once; when nobody reads any more, go on in silence, so that results are still stored."""
-    try:
-        print(text, flush=True)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
 def _complain(message: str, status: int) -> int:
-    print(f"mjcont: {' '.join(message.split())}", file=sys.stderr)
+    complain(f"mjcont: {message}")
     return status
 
 
@@ -72,10 +66,12 @@ def _inspect(args: argparse.Namespace) -> int:
         say(str(_load(args.model)))
     else:
         from mjcont.mechanism.mechanism import Mechanism
+        from mjcont.models.loading import files_read
 
         with _warnings_as_lines():
             mechanism = Mechanism.from_xml(args.model, friction=args.friction or FRICTION[0])
         say(str(mechanism))
+        say("\n".join(["", "files that this model reads", *(f"  {name}" for name in files_read(args.model))]))
     return OK
 
 
@@ -89,8 +85,7 @@ def _run(args: argparse.Namespace) -> int:
     if args.quiet:
         reporter = Reporter()
     else:
-        terminal = sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
-        reporter = Table(say, sys.stderr if terminal else None)
+        reporter = Table(say, live_stream())
     results = run_study(study, args.out, reporter)
     ended = interruption(study, results, args.out)
     return _complain(ended, INTERRUPTED) if ended else OK
@@ -102,7 +97,7 @@ def _check(args: argparse.Namespace) -> int:
     with _warnings_as_lines():
         study, problems = check_study(args.study, friction=args.friction)
     for line in problems:
-        print(line, file=sys.stderr)
+        complain(line)
     if study is not None:
         say(summary(study))
     return USER_ERROR if problems else OK
@@ -119,12 +114,12 @@ def _sweep(args: argparse.Namespace) -> int:
 def _plot(args: argparse.Namespace) -> int:
     from mjcont.drawing.plotting import plot, save_figure
 
+    out = _output(args.out, ".png", args.files)
     branches = [_load_curve(file) for file in args.files]
     for file, branch in zip(args.files, branches, strict=True):
         for column in (args.x, args.y):
             with _naming(file):
                 _ = branch[column]
-    out = Path(args.out) if args.out else Path(args.files[0]).with_suffix(".png")
     axes: Any = plot(*branches, x=args.x, y=args.y, labels=args.labels, degrees=args.degrees)
     save_figure(axes.figure, out)
     say(f"plot: {out}")
@@ -134,6 +129,8 @@ def _plot(args: argparse.Namespace) -> int:
 def _sensitivities(args: argparse.Namespace) -> int:
     from mjcont.influence.sensitivities import sensitivities
 
+    for out in filter(None, (args.out, args.csv)):
+        _output(out, "", [args.file])
     branch = _load_branch(args.file)
     with _naming(args.file):
         found = sensitivities(branch.point(args.label), args.parameter, quantities=args.quantity)
@@ -180,25 +177,34 @@ def _report(args: argparse.Namespace) -> int:
 
 def _bush(args: argparse.Namespace) -> int:
     from mjcont.models.bushes import bushed_xml
-    from mjcont.models.loading import compile_spec, parse
+    from mjcont.outside.saving import write_file
 
     out = Path(args.out)
-    if out.exists() and Path(args.model).exists() and out.samefile(args.model):
-        raise MjcontError(f"'{out}' is the model itself: give the new one a name of its own")
+    _refuse_input(out, [args.model], "model")
     with _warnings_as_lines():
         text = bushed_xml(
             args.model, args.joint, args.connect, stiffness=args.stiffness, damping=args.damping, frame=args.frame
         )
-    compile_spec(parse(text, out.resolve().parent, f"'{out}' (files beside the model must be beside it, too)"))
+    _check_written(Path(args.model), text, out)
     out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_text(text, encoding="utf-8")
+    write_file(out, text)
     say(f"written: {out}")
     return OK
 
 
+def _check_written(model: Path, text: str, out: Path) -> None:
+    """Raise a ModelError unless a text compiles where it is to be written, with all the files that its model has."""
+    from mjcont.models.loading import compile_spec, parse_present
+
+    spec, missing = parse_present(text, out.resolve().parent, f"'{out}'")
+    compile_spec(spec)
+    if model.is_file() and missing != parse_present(text, model.resolve().parent, f"'{model}'")[1]:
+        raise ModelError(f"'{out}': {missing[0]}: files beside the model must be beside it, too")
+
+
 def _export(args: argparse.Namespace) -> int:
+    out = _output(args.out, ".csv", [args.file])
     result = _load(args.file)
-    out = Path(args.out) if args.out else Path(args.file).with_suffix(".csv")
     say(f"written: {result.to_csv(out, degrees=args.degrees)}")
     return OK
 
@@ -219,7 +225,7 @@ def _warnings_as_lines() -> Iterator[None]:
         warnings.simplefilter("always", UserWarning)
         yield
     for warning in caught:
-        print(f"mjcont: warning: {' '.join(str(warning.message).split())}", file=sys.stderr)
+        complain(f"mjcont: warning: {warning.message}")
 
 
 @contextmanager
@@ -234,7 +240,23 @@ def _naming(file: str) -> Iterator[None]:
 def _load(path: str) -> Any:
     from mjcont.results.formats import load
 
-    return load(path)
+    with _warnings_as_lines():
+        return load(path)
+
+
+def _refuse_input(out: Path, inputs: Sequence[str], what: str) -> None:
+    """Refuse to write over what is read."""
+    for file in inputs:
+        if out.exists() and Path(file).exists() and out.samefile(file):
+            raise MjcontError(f"'{out}' is the {what} itself: give the new one a name of its own")
+
+
+def _output(given: str | None, suffix: str, inputs: Sequence[str]) -> Path:
+    """Return the file to be written, by default beside the first input, known to be writable and not read."""
+    out = Path(given) if given else Path(inputs[0]).with_suffix(suffix)
+    _refuse_input(out, inputs, "input")
+    check_writable(out)
+    return out
 
 
 def _load_curve(path: str) -> Any:

@@ -8,12 +8,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
+from mjcont.outside.terminal import Live
 from mjcont.studies.reporter import Reporter
 
 if TYPE_CHECKING:
     from mjcont.curves.collect import Found
 
-_CLEAR = "\r\x1b[K"
 _REDRAW_SECONDS = 0.1
 
 
@@ -30,7 +30,7 @@ class Table(Reporter):
 
     def __init__(self, say: Callable[[str], None], live: TextIO | None = None) -> None:
         self._say = say
-        self._live = live
+        self._live = Live(live) if live is not None else None
         self._columns: Sequence[tuple[str, str]] = ()
         self._name = ""
         self._headed = False
@@ -53,8 +53,7 @@ class Table(Reporter):
         now = time.monotonic()
         if self._live is not None and (special is not None or now - self._drawn >= _REDRAW_SECONDS):
             self._drawn = now
-            self._live.write(f"{_CLEAR}{self._name}: {count} points, {now - self._began:.0f} s")
-            self._live.flush()
+            self._live.show(f"{self._name}: {count} points, {now - self._began:.0f} s")
 
     def finished(self, result: Any, files: Sequence[Path]) -> None:
         """Print the result's summary and where it is stored."""
@@ -69,8 +68,7 @@ class Table(Reporter):
     def stopped(self) -> None:
         """Wipe the live count."""
         if self._live is not None:
-            self._live.write(_CLEAR)
-            self._live.flush()
+            self._live.show()
 
     def _headings(self) -> list[str]:
         return [f"{n} [{'deg' if u == 'rad' else u}]" if u not in ("", "1") else n for n, u in self._columns]

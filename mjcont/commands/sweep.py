@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import argparse
 import math
-import os
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mjcont.errors import MjcontError
+from mjcont.outside.saving import check_writable
+from mjcont.outside.terminal import Live, live_stream
 
 if TYPE_CHECKING:
     from mjcont.sweeps.sweeps import Progress
@@ -47,14 +47,17 @@ def run(args: argparse.Namespace, say: Callable[[str], None]) -> None:
             raise MjcontError("-x and -y go with --plot FILE")
         if column and drawn and study.sweep is not None and study.sweep.record and column not in drawn:
             raise MjcontError(f"the plot's column '{column}' is not in this sweep. Valid: {', '.join(drawn)}.")
-    terminal = sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
-    progress = None if args.quiet or not terminal else _live()
+    for file in args.plot:
+        check_writable(file)
+    stream = None if args.quiet else live_stream()
+    live = Live(stream) if stream is not None else None
     began = time.monotonic()
     table = sweep(
-        study, out=args.out, limit=args.limit, workers=args.workers, scheduler=args.scheduler, progress=progress
+        study, out=args.out, limit=args.limit, workers=args.workers, scheduler=args.scheduler,
+        progress=_counted(live) if live is not None else None,
     )
-    if progress is not None:
-        sys.stderr.write("\r\x1b[K")
+    if live is not None:
+        live.show()
     if not args.quiet:
         say(str(table))
         say(f"  written: {Path(args.out) / 'sweep.csv'}, {Path(args.out) / 'sweep.h5'} "
@@ -67,8 +70,8 @@ def run(args: argparse.Namespace, say: Callable[[str], None]) -> None:
             say(f"plot: {path}")
 
 
-def _live() -> Progress:
-    """Return what shows how many cases are done and how long the rest may take, on a terminal."""
+def _counted(live: Live) -> Progress:
+    """Return what shows how many cases are done and how long the rest may take."""
     began, drawn, first = time.monotonic(), -math.inf, -1
 
     def show(done: int, total: int, failed: int) -> None:
@@ -81,7 +84,6 @@ def _live() -> Progress:
         left = (total - done) * (now - began) / (done - first) if done > first else math.nan
         rest = f", about {left:.0f} s left" if math.isfinite(left) else ""
         lost = f", {failed} failed" if failed else ""
-        sys.stderr.write(f"\r\x1b[K{done} of {total} cases{lost}{rest}")
-        sys.stderr.flush()
+        live.show(f"{done} of {total} cases{lost}{rest}")
 
     return show

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -11,21 +13,21 @@ import numpy as np
 
 from mjcont.curves.rows import CurveRows, curve_rows
 from mjcont.errors import StartError
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.points.kinds import KINDS, holds_eigenvalues
-from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum, verdict_at
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.steps import End, Item, Status
-from mjcont.numerics.walk.trace import Trace, Walker, trace
+from mjcont.numerics.walk.trace import Trace, Walker, time_up, trace
 from mjcont.results.branch import Branch
-from mjcont.results.model import Model, model_of, units
-from mjcont.results.points import Column, Point, SpecialPoint, show, special_from_row
-from mjcont.results.provenance import provenance
+from mjcont.results.model import Model, model_of, provenance, units
+from mjcont.results.points import Column, Mark, Point, show
+from mjcont.results.spectra import Late, Spectra
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +40,6 @@ class Found:
 
 
 Progress = Callable[[int, Found | None], None]
-_VECTOR_NAMES = ("v", "w")
 
 
 def make_point(problem: Model, x: Array, values: Values, kind: str = "") -> Point:
@@ -83,12 +84,20 @@ def run_directions(
     traces: list[Trace] = []
     report = reporter(walker.system, progress)
     for direction in directions:
+        if traces and clock.expired():
+            traces.append(Trace([], end=time_up(walker.settings)))
+            continue
         if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
             break
         with np.errstate(all="ignore"):  # a state that overflows fails its step; that is reported as such
-            first: CurvePoint | Refused | None = walker.stepper.other_way(traces[0].points) if traces else None
-            if first is None:
-                first = first_point(walker.system, x, y, direction, walker.settings, lead)
+            try:
+                first: CurvePoint | Refused | None = walker.stepper.other_way(traces[0].points) if traces else None
+                if first is None:  # there is always a start to tell of
+                    with clock.unlimited() if not traces else nullcontext():
+                        first = first_point(walker.system, x, y, direction, walker.settings, lead)
+            except clock.TimeUp:
+                traces.append(Trace([], end=time_up(walker.settings)))
+                continue
             if isinstance(first, Refused):
                 traces.append(Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
@@ -139,12 +148,15 @@ def completed(
 
     An interrupt meanwhile keeps the points, and ends the last of the curve's traces.
     """
-    if kind == "equilibria" and not any(t.end.status is Status.INTERRUPTED for t in traces):
+    if kind == "equilibria" and not any(t.end.status in (Status.INTERRUPTED, Status.MAX_TIME) for t in traces):
         try:
             return curve_rows(system, rows, settings.chord)
+        except clock.TimeUp:
+            traces[-1].end = time_up(settings)
         except KeyboardInterrupt:
             traces[-1].end = End(Status.INTERRUPTED, "stopped by the user before rows were laid between the points")
-    return curve_rows(system, rows, math.inf)
+    with clock.unlimited():
+        return curve_rows(system, rows, math.inf)
 
 
 def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
@@ -156,6 +168,7 @@ def ordered_rows(run: Trace) -> list[tuple[CurvePoint, Located | None]]:
     return [*rows, rows[0]] if closed else rows
 
 
+@clock.unlimited()
 def build_branch(
     kind: str,
     rows: CurveRows,
@@ -175,21 +188,25 @@ def build_branch(
             words[i], counts[i] = verdict_at(KINDS[at].holds, s)
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
     base, unit_of = rows.values(0), units(problem)
-    branch = Branch(
+    columns = _columns(rows, problem, unit_of)
+    free = {p.name: (p.low, p.high) for p in system.free}
+    fixed = {k: v for k, v in base.items() if k not in system.names}
+    late = Late(problem, states, fixed, {n: columns[n].values for n in free}, free)
+    return Branch(
         kind=kind,
         name=problem.name,
-        columns=_columns(rows, problem, unit_of),
+        columns=columns,
         states=_frozen(states),
         state_labels=problem.state_labels,
-        eigenvalues=_eigenvalues(rows, spectra),  # type: ignore[arg-type]
+        spectra=Spectra([None if s is None else s.eigenvalues for s in spectra], late),
         stability=_frozen(stability),
         n_unstable=_frozen(n_unstable),
         residuals=_frozen(rows.errors),
-        special_points=(),
-        free={p.name: (p.low, p.high) for p in system.free},
-        fixed={k: v for k, v in base.items() if k not in system.names},
+        marks=_marks(rows.located),
+        free=free,
+        fixed=fixed,
         ends=[(t.end.status.value, t.end.message) for t in traces],
-        start="",
+        start=_describe_start(columns, start_index, f"{stability[start_index]} ({origin})"),
         settings={k: v for k, v in asdict(settings).items() if v != math.inf},
         provenance=provenance(problem),
         problem=problem,
@@ -202,9 +219,6 @@ def build_branch(
         notes=(*notes, *_springs(rows), *_left_out(rows), *_unexplained(kind, rows, stability, n_unstable)),
         fixed_units={k: u for k, u in unit_of.items() if k in base and k not in system.names},
     )
-    object.__setattr__(branch, "special_points", tuple(_special_points(branch, rows.located, spectra)))
-    object.__setattr__(branch, "start", _describe_start(branch, origin))
-    return branch
 
 
 def _columns(rows: CurveRows, problem: Model, unit_of: Mapping[str, str]) -> dict[str, Column]:
@@ -247,23 +261,6 @@ def _left_out(rows: CurveRows) -> list[str]:
     return [f"{rows.left_out} rows between points did not settle and are left out: chords are longer there"]
 
 
-def _eigenvalues(rows: CurveRows, spectra: Sequence[Spectrum | None]) -> Array | Callable[[], Array]:
-    """Return the eigenvalues of all rows, (N, m), or a function that computes those that are missing."""
-    known: list[Array | None] = [None if s is None else s.eigenvalues for s in spectra]
-    missing = [i for i, s in enumerate(spectra) if s is None]
-
-    def complete() -> Array:
-        for i, s in zip(missing, rows.late_spectra(missing), strict=True):
-            known[i] = s.eigenvalues
-        every = [e for e in known if e is not None]
-        out = np.full((len(every), max(len(e) for e in every)), complex(np.nan, np.nan))
-        for row, e in zip(out, every, strict=True):
-            row[: len(e)] = e
-        return _frozen(out)
-
-    return complete if missing else complete()
-
-
 def _unexplained(kind: str, rows: CurveRows, stability: Array, n_unstable: Array) -> list[str]:
     """Return a sentence for each change of stability without a special point: several eigenvalues pass zero at once."""
     if kind != "equilibria":
@@ -285,29 +282,20 @@ def _frozen(data: Any) -> Array:
     return array
 
 
-def _special_points(
-    branch: Branch, located: Sequence[Located | None], spectra: Sequence[Spectrum | None]
-) -> list[SpecialPoint]:
-    counts: dict[str, int] = {}
+def _marks(located: Sequence[Located | None]) -> list[Mark]:
+    """Return the marks of the rows that are special points, labelled in order."""
+    counts: Counter[str] = Counter()
     found = []
     for i, e in enumerate(located):
-        if e is None:
-            continue
-        counts[e.kind] = counts.get(e.kind, 0) + 1
-        label = f"{e.kind}{counts[e.kind]}"
-        known = spectra[i]
-        assert known is not None  # special points have theirs
-        row = branch.row_with(i, known.eigenvalues)
-        found.append(special_point(row, e, label, i, branch.free, branch.kind))
+        if e is not None:
+            counts[e.kind] += 1
+            found.append(mark_of(e, f"{e.kind}{counts[e.kind]}", i))
     return found
 
 
-def special_point(
-    row: Point, e: Located, label: str, index: int, free: Mapping[str, tuple[float, float]], curve: str
-) -> SpecialPoint:
-    """Return the special point of a located one: scalars among its data are coefficients, arrays vectors."""
-    return special_from_row(
-        row,
+def mark_of(e: Located, label: str = "", index: int = 0) -> Mark:
+    """Return the mark of a located point: scalars among its data are coefficients, arrays vectors."""
+    return Mark(
         kind=e.kind,
         label=label,
         index=index,
@@ -316,15 +304,9 @@ def special_point(
         coefficients={k: v for k, v in e.data.items() if isinstance(v, float | str)},
         vectors={k: v for k, v in e.data.items() if isinstance(v, np.ndarray)},
         note=e.note,
-        free=free,
-        curve=curve,
     )
 
 
-def _describe_start(branch: Branch, origin: str) -> str:
-    i = branch.start_index
-    names = [*branch.free, *(c.name for c in branch.columns.values() if c.role == "observable")]
-    shown = ", ".join(f"{n} = {show(float(branch[n][i]), branch.unit(n), 6)}" for n in names[:4])
-    return f"{shown}; {branch.stability[i]} ({origin})"
-
-
+def _describe_start(columns: Mapping[str, Column], i: int, how: str) -> str:
+    shown = [f"{c.name} = {show(float(c.values[i]), c.unit, 6)}" for c in list(columns.values())[:4]]
+    return f"{', '.join(shown)}; {how}"

@@ -2,33 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import numpy as np
 
-from mjcont.curves.collect import Progress, collect, make_point, run_directions, special_point
-from mjcont.curves.walkers import equilibrium_walker, monitor_of, point_stop
+from mjcont.curves.collect import Progress, collect, make_point, mark_of, run_directions
+from mjcont.curves.walkers import Zeros, equilibrium_walker, monitor_of, point_stop, zero_values
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
-from mjcont.numerics.equations.newton import LARGEST_ERROR, Corrected, Start, find_start, solve
+from mjcont.numerics.equations.newton import LARGEST_ERROR, Corrected, solve
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import make_settings
+from mjcont.numerics.equations.starts import Start, find_start
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.events import Located, ScalarZero
 from mjcont.numerics.points.on_equilibria import square_system
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.guard import guarded
-from mjcont.numerics.walk.steps import End, Status
+from mjcont.numerics.walk.steps import End, Item, Status
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint, show
-from mjcont.results.quantities import finite
+from mjcont.results.quantities import column_of, meant_each
 
 M = TypeVar("M", bound=Model)
+# how often a curve is followed anew at most, with the scale that its states tell
+_SCALES = 3
 
 
 def check_limits(name: str, ends: Any) -> None:
@@ -68,7 +72,7 @@ def find_equilibrium(
     problem, _ = hold_rigid_modes(problem, x, values)
     found = settled(problem, start if state is keyframe is None else None, x, values)
     if found.failure is not None:
-        raise StartError(f"no equilibrium found from {_start_name(start, keyframe, state)}: {found.failure}")
+        raise _no_start(problem, _start_name(problem, start, keyframe, state), found.failure)
     return make_point(problem, found.x, values)
 
 
@@ -85,12 +89,22 @@ def settled(problem: Model, start: Any, x: Array, values: Values) -> Start:
     return find_start(problem, x, values)
 
 
-def _start_name(start: Any, keyframe: str | None, state: Any) -> str:
+def _no_start(problem: Model, origin: str, failure: Refused) -> StartError:
+    """Return the error that says why no equilibrium was found from a start, and what to do."""
+    more = "give a state nearer to one" if problem.second_order else "give u0 or a state nearer to one"
+    return StartError(
+        f"no equilibrium found from {origin}: {failure}. find_equilibria searches without a start; or {more}"
+    )
+
+
+def _start_name(problem: Model, start: Any, keyframe: str | None, state: Any) -> str:
     if state is not None:
         return "the given state"
     if keyframe is not None:
         return f"keyframe '{keyframe}'"
-    return "the given point" if isinstance(start, Point) else "the model's initial pose"
+    if isinstance(start, Point):
+        return "the given point"
+    return "the model's initial pose" if problem.second_order else "u0"
 
 
 @np.errstate(all="ignore")
@@ -103,7 +117,7 @@ def continue_equilibria(
     keyframe: str | None = None,
     state: Any = None,
     direction: int | None = None,
-    zeros: Mapping[str, float] | None = None,
+    zeros: Zeros | None = None,
     limits: Mapping[str, tuple[float, float]] | None = None,
     stop: Callable[[Point], str | None] | None = None,
     progress: Progress | None = None,
@@ -124,8 +138,8 @@ def continue_equilibria(
         Where to look for the first equilibrium; default the start point's state, or qpos0 (u0).
     direction : {None, +1, -1}
         Both directions from the start, or only that in which the parameter first grows or falls.
-    zeros : dict of column to value, optional
-        Observables whose passing of a value is located and labelled UZ.
+    zeros : dict of column to value, or to several values, optional
+        Columns whose passing of a value is located and labelled UZ.
     limits : mapping of column to (low, high), optional
         The curve ends at the first point at which an observable leaves its range.
     stop : callable, optional
@@ -144,14 +158,30 @@ def continue_equilibria(
     NameLookupError, BoundsError, StartError, ParameterError
         See their messages. Failure of the continuation itself is no exception but the branch's status.
     """
-    prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
     directions = check_direction(direction)
+    with clock.limited(make_settings(options).max_seconds):
+        for _ in range(_SCALES):
+            prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
+            branch, fitting = _followed(prepared, directions, progress)
+            if fitting is None:
+                break
+            problem = fitting
+    return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
+
+
+def _followed(
+    prepared: _Prepared, directions: Sequence[float], progress: Progress | None
+) -> tuple[Branch, Model | None]:
+    """Return a branch, and its problem with the scale that its states tell: None where it fits, or a user ended it."""
     walker = prepared.walker
     traces = run_directions(walker, prepared.x, walker.system.start_y(), directions, progress)
     branch = collect(
         "equilibria", walker.system, traces, directions, prepared.origin, walker.settings, prepared.notes
     )
-    return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
+    kept = (Status.RUNS_OFF, Status.INTERRUPTED, Status.STOPPED, Status.FAILED)
+    if not branch.model.follows_scale or any(t.end.status in kept for t in traces):
+        return branch, None
+    return branch, branch.model.rescaled(np.abs(branch.states).max(axis=0))
 
 
 def iterate_equilibria(
@@ -163,7 +193,7 @@ def iterate_equilibria(
     keyframe: str | None = None,
     state: Any = None,
     direction: int = 1,
-    zeros: Mapping[str, float] | None = None,
+    zeros: Zeros | None = None,
     limits: Mapping[str, tuple[float, float]] | None = None,
     **options: Any,
 ) -> Iterator[Point]:
@@ -172,22 +202,31 @@ def iterate_equilibria(
     Arguments as for `continue_equilibria`, in one direction. Special points are `SpecialPoint`s without a label;
     the iterator ends where the curve does.
     """
-    prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, None, options)
-    (sign,) = check_direction(int(direction))
-    walker = prepared.walker
-    system = walker.system
+    within = clock.allowance(make_settings(options).max_seconds)
+    with within():
+        prepared = _prepare(problem, parameter, bounds, start, keyframe, state, zeros, limits, None, options)
+        (sign,) = check_direction(int(direction))
+        walker = prepared.walker
+        system = walker.system
     first = first_point(system, prepared.x, system.start_y(), sign, walker.settings)
     if isinstance(first, Refused):
         raise StartError(f"the curve could not be entered: {first}")
     yield make_point(model_of(system.problem), first.x, system.values(first.y))
-    for item in guarded(walker.walk(first)):
+    walk = guarded(walker.walk(first))
+    item: Item | None = None
+    while not isinstance(item, End):
+        try:
+            with within():  # not across a yield: the caller's own time has no limit
+                item = next(walk)
+        except clock.TimeUp:
+            return
         if isinstance(item, End) and item.status is Status.FAILED:
             raise MjcontError(item.message)
         if isinstance(item, CurvePoint):
             yield make_point(model_of(system.problem), item.x, system.values(item.y))
         elif isinstance(item, Located):
             row = make_point(model_of(system.problem), item.point.x, system.values(item.point.y), item.kind)
-            yield special_point(row, item, "", 0, {p.name: (p.low, p.high) for p in system.free}, "equilibria")
+            yield mark_of(item).on(row, {p.name: (p.low, p.high) for p in system.free}, "equilibria")
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,7 +246,7 @@ def _prepare(
     start: Mapping[str, float] | Point | None,
     keyframe: str | None,
     state: Any,
-    zeros: Mapping[str, float] | None,
+    zeros: Zeros | None,
     limits: Mapping[str, tuple[float, float]] | None,
     stop: Callable[[Point], str | None] | None,
     options: Mapping[str, Any],
@@ -221,25 +260,30 @@ def _prepare(
             f"the start has {parameter} = {show(values[parameter], unit)}, outside the bounds "
             f"{show(low, unit)} .. {show(high, unit)}: give start={{'{parameter}': ...}} inside them"
         )
-    for name in (*(zeros or {}), *(limits or {})):
+    zeros = meant_each(zeros, (parameter,), problem.observables)
+    limits = meant_each(limits, (parameter,), problem.observables)
+    for name in (*zeros, *limits):
         if name not in problem.parameters:
             problem.observable(name)
-    for name, value in (zeros or {}).items():
-        finite(f"zeros: the value of {name}", value)
-    for name, ends in (limits or {}).items():
+    zero_values(zeros)
+    for name, ends in limits.items():
         check_limits(name, ends)
-    problem, notes = hold_rigid_modes(problem, x, values)
-    refuse_pushing(problem, parameter, x, values)
-    if notes:
-        problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
-    found = settled(problem, start if state is keyframe is None else None, x, values)
-    origin = _start_name(start, keyframe, state)
+    with clock.unlimited():  # a dozen states tell, whatever the limit on time
+        problem, notes = hold_rigid_modes(problem, x, values)
+        refuse_pushing(problem, parameter, x, values)
+        if notes:
+            problem, notes = hold_rigid_modes(problem, x, values, {parameter: (low, high)})
+    try:
+        found = settled(problem, start if state is keyframe is None else None, x, values)
+    except clock.TimeUp:
+        raise StartError(f"no equilibrium found: the limit of {settings.max_seconds:g} s was reached") from None
+    if found.failure is None and problem.follows_scale:
+        problem = problem.rescaled(np.abs(found.x), grow=True) or problem
+    origin = _start_name(problem, start, keyframe, state)
     if found.failure is not None:
-        raise StartError(f"no equilibrium found from {origin}: {found.failure}")
+        raise _no_start(problem, origin, found.failure)
     system = System(problem, values, [Free(parameter, low, high, problem.parameter(parameter).unit)])
-    walker = equilibrium_walker(
-        system, settings, zeros or {}, point_stop(problem, system, stop, limits or {})
-    )
+    walker = equilibrium_walker(system, settings, zeros, point_stop(problem, system, stop, limits))
     way = {"newton": ", by Newton", "located": ""}.get(found.method, ", by damped motion to rest")
     return _Prepared(walker, found.x, f"from {origin}{way}", notes)
 
@@ -298,6 +342,7 @@ def points_at(branch: Branch, name: str, value: float) -> list[Point]:
     model_of(branch.problem, "the branch")
     if branch.kind != "equilibria":
         raise MjcontError("at() works on branches of equilibria; on a locus use its special points or rows")
+    name = column_of(name, branch.columns) or name
     column = branch[name] - value
     held, _ = hold_rigid_modes(branch.model, branch.states[0], branch.parameters_at(0))
     branch = replace(branch, problem=held)

@@ -9,10 +9,11 @@ import numpy as np
 
 from mjcont.curves.collect import Progress, build_branch, completed, ordered_rows, reporter
 from mjcont.curves.continuation import continue_equilibria, find_equilibrium
-from mjcont.curves.walkers import equilibrium_walker
+from mjcont.curves.walkers import Zeros, equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
-from mjcont.numerics.equations.newton import correct, solve
+from mjcont.numerics.equations.newton import correct
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings, make_settings
@@ -20,8 +21,9 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint, point_from
+from mjcont.numerics.step.hermite import lagrange
 from mjcont.numerics.walk.steps import End, Status
-from mjcont.numerics.walk.trace import Trace, trace
+from mjcont.numerics.walk.trace import Trace, time_up, trace
 from mjcont.results.branch import Branch, Diagram
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint
@@ -31,6 +33,8 @@ _OFFSET = 1e-2
 _SAME = 1e-5
 # arclengths are sums over steps: those of halves that are images of each other agree to this part
 _AS_LONG = 1e-3
+# rows nearer to each other than this part of their distances are a cluster
+_CLUSTER = 0.05
 
 
 @np.errstate(all="ignore")
@@ -38,6 +42,7 @@ def switch_branches(
     point: SpecialPoint,
     bounds: tuple[float, float] | None = None,
     *,
+    zeros: Zeros | None = None,
     progress: Progress | None = None,
     **options: Any,
 ) -> list[Branch]:
@@ -49,6 +54,8 @@ def switch_branches(
         A BP of a branch of equilibria.
     bounds : (low, high), optional
         Range of the parameter; default that of the point's branch.
+    zeros : dict of column to value, or to several values, optional
+        Columns whose passing of a value is located and labelled UZ.
 
     Raises
     ------
@@ -59,7 +66,8 @@ def switch_branches(
         raise MjcontError(f"{point.label or 'this point'} is no branch point of equilibria: only those have branches")
     settings = make_settings(options)
     system = _system_at(point, bounds)
-    found = [_through(point, system, t, settings, progress) for t in point.vectors.get("tangents", ())]
+    with clock.limited(settings.max_seconds):
+        found = [_through(point, system, t, settings, zeros, progress) for t in point.vectors.get("tangents", ())]
     return [b for b in found if b is not None]
 
 
@@ -85,17 +93,26 @@ def _leave(system: System, x: Array, y: Array, tangent: Array, settings: Setting
 
 
 def _through(
-    point: SpecialPoint, system: System, tangent: Array, settings: Settings, progress: Progress | None
+    point: SpecialPoint,
+    system: System,
+    tangent: Array,
+    settings: Settings,
+    zeros: Zeros | None,
+    progress: Progress | None,
 ) -> Branch | None:
     """Return the branch through a branch point with a given tangent, or None if it cannot be entered."""
     x, y = point.state, system.start_y()
-    walker = equilibrium_walker(system, settings, {})
+    walker = equilibrium_walker(system, settings, zeros or {})
     halves: list[Trace] = []
     for sign in (-1.0, 1.0):
         if halves and halves[0].end.status in (Status.CLOSED, Status.INTERRUPTED):
             halves.append(Trace([], end=halves[0].end))
             break
-        first = _leave(system, x, y, sign * tangent, settings)
+        try:
+            first = _leave(system, x, y, sign * tangent, settings)
+        except clock.TimeUp:
+            halves.append(Trace([], end=time_up(settings)))
+            continue
         if isinstance(first, Refused):
             halves.append(Trace([], end=End(Status.NO_START, f"the branch could not be entered: {first}")))
             continue
@@ -103,7 +120,8 @@ def _through(
     if not any(h.points for h in halves):
         return None
     local = system.local(x, y)
-    bp_point = CurvePoint(x, y, tangent, 0.0, local, system.jacobian(local, y))
+    with clock.unlimited():
+        bp_point = CurvePoint(x, y, tangent, 0.0, local, system.jacobian(local, y))
     known = {k: v for k, v in {**point.coefficients, **point.vectors}.items() if k in ("type", "c", "tangents", "w")}
     located = Located("BP", bp_point, point.tolerance, point.converged, known)
     for half in halves:  # a curve that closes comes back to the point it left
@@ -142,6 +160,7 @@ def bifurcation_diagram(
     *,
     keyframes: Sequence[str] = (),
     max_branches: int = 50,
+    zeros: Zeros | None = None,
     progress: Progress | None = None,
     **options: Any,
 ) -> Diagram:
@@ -152,6 +171,7 @@ def bifurcation_diagram(
     starts : a start (dict or point), or several; default the model's own values and pose.
     keyframes : further starts by keyframe, all at the first start's parameters, or the model's without one.
     max_branches : limit on the number of branches.
+    zeros : columns whose passing of a value, or of several, is located and labelled UZ.
     """
     first: Sequence[Any] = [starts] if starts is None or isinstance(starts, Mapping | Point) else list(starts)
     if not first and not keyframes:
@@ -161,34 +181,56 @@ def bifurcation_diagram(
     tries: list[tuple[Any, str | None]] = [(s, None) for s in first] if not keyframes or starts is not None else []
     tries += [(first[0] if first else None, k) for k in keyframes]
     branches: list[Branch] = []
-    notes: list[str] = []
+    reached = ""
+    try:
+        with clock.limited(make_settings(options).max_seconds):
+            reached = _reach(problem, parameter, bounds, tries, branches, max_branches, zeros, progress, options)
+    except clock.TimeUp:
+        reached = f"the limit of {make_settings(options).max_seconds:g} s was reached"
+    return Diagram(tuple(branches), (reached,) if reached else ())
+
+
+def _reach(
+    problem: Any,
+    parameter: str,
+    bounds: tuple[float, float] | None,
+    tries: Sequence[tuple[Any, str | None]],
+    branches: list[Branch],
+    max_branches: int,
+    zeros: Zeros | None,
+    progress: Progress | None,
+    options: Mapping[str, Any],
+) -> str:
+    """Add every branch that is reached from the starts to `branches`; return which limit was met, or nothing."""
     for start, keyframe in tries:
         if any(b.interrupted for b in branches):
             break
         located = isinstance(start, SpecialPoint) and start.converged and keyframe is None
         point = start if located else find_equilibrium(problem, start, keyframe=keyframe)
         if not any(covers(b, point) for b in branches):
-            branches.append(continue_equilibria(problem, parameter, bounds, point, progress=progress, **options))
+            given = {"zeros": zeros, "progress": progress, **options}
+            branches.append(continue_equilibria(problem, parameter, bounds, point, **given))
+            problem = branches[-1].model if problem.follows_scale else problem
     queue = [p for b in branches for p in b.of_kind("BP")]
     done: list[SpecialPoint] = []
     while queue and not any(b.interrupted for b in branches):
         point = queue.pop(0)
-        if any(_same(problem, point, other, bounds or point.free[parameter]) for other in done):
+        if any(_same(point.model, point, other, bounds or point.free[parameter]) for other in done):
             continue
         done.append(point)
-        for branch in _new_branches(point, branches, bounds, progress, options):
+        for branch in _new_branches(point, branches, bounds, zeros, progress, options):
             if len(branches) >= max_branches:
-                notes.append(f"the limit of {max_branches} branches was reached")
-                return Diagram(tuple(branches), tuple(notes))
+                return f"the limit of {max_branches} branches was reached"
             branches.append(branch)
             queue += branch.of_kind("BP")
-    return Diagram(tuple(branches), tuple(notes))
+    return ""
 
 
 def _new_branches(
     point: SpecialPoint,
     branches: Sequence[Branch],
     bounds: tuple[float, float] | None,
+    zeros: Zeros | None,
     progress: Progress | None,
     options: Mapping[str, Any],
 ) -> Iterator[Branch]:
@@ -200,7 +242,7 @@ def _new_branches(
         probes = [_as_point(system, s) for s in sides if not isinstance(s, Refused)]
         if probes and all(any(covers(b, p) for b in branches) for p in probes):
             continue
-        branch = _through(point, system, tangent, settings, progress)
+        branch = _through(point, system, tangent, settings, zeros, progress)
         if branch is not None:
             yield branch
 
@@ -218,22 +260,44 @@ def _same(problem: Model, a: Point, b: Point, bounds: tuple[float, float]) -> bo
 
 
 def covers(branch: Branch, point: Point) -> bool:
-    """Whether an equilibrium lies on a branch of equilibria: near one of its chords, and equal when solved for."""
+    """Whether an equilibrium lies on a branch of equilibria.
+
+    It does where the branch, corrected from the rows around in the plane across its chord, meets that very point. At
+    the point's own parameters a steep branch would be met far from there, and on another one that crosses it.
+    """
     problem = branch.model
     ((name, (low, high)),) = branch.free.items()
-    target = (point.parameters[name] - branch[name]) / (high - low)
-    scale = problem.state_scale
-    steps = problem.difference_each(point.state, branch.states) / scale
-    z = np.column_stack([steps, target])
+    free = Free(name, low, high)
+    system = System(problem, point.parameters, [free])
+    at, column = system.start_y(), np.array([[free.coordinate(v)] for v in branch[name].tolist()])
+    z = np.column_stack([problem.difference_each(point.state, branch.states) / problem.state_scale, at - column])
     chords = z[:-1] - z[1:]
     lengths = np.linalg.norm(chords, axis=1)
     along = np.clip(np.einsum("ij,ij->i", z[:-1], chords) / np.maximum(lengths**2, 1e-300), 0.0, 1.0)
     aside = np.linalg.norm(z[:-1] - along[:, None] * chords, axis=1)
-    for i in np.flatnonzero(aside < 0.05 * lengths + 1e-9):
-        chord = problem.difference(branch.states[i + 1], branch.states[i])
-        x = problem.retract(branch.states[i], along[i] * chord)
-        c = solve(System(problem, point.parameters, ()), x, np.zeros(0), reach=0.1)
-        near = c.failure is None and np.max(np.abs(problem.difference(c.x, point.state)) / scale) < _SAME
-        if near or aside[i] < 1e-7:
+    for i in np.flatnonzero((aside < 0.05 * lengths + 1e-9) & (lengths > 0.0)).tolist():
+        if aside[i] < 1e-7:
+            return True
+        step = _from_row(z, i, float(along[i]))
+        x, y = system.move(branch.states[i], column[i], step)
+        c = correct(system, x, y, chords[i] / lengths[i], None, Settings())
+        if c.failure is None and np.linalg.norm(system.difference(c.x, c.y, point.state, at)) < _SAME:
             return True
     return False
+
+
+def _from_row(z: Array, i: int, fraction: float) -> Array:
+    """Return the step from row i along a part of its chord, on the cubic through the rows around.
+
+    `z` (N, n + 1) are the scaled steps from each row to one point.
+    """
+    first = min(max(i - 1, 0), max(len(z) - 4, 0))
+    near = z[first : first + 4]
+    steps = np.linalg.norm(np.diff(near, axis=0), axis=1)
+    if len(near) < 4 or steps.min() < _CLUSTER * steps.max():
+        straight: Array = fraction * (z[i] - z[i + 1])
+        return straight
+    s = np.append(0.0, np.cumsum(steps))
+    weights = lagrange(s.tolist(), float(s[i - first] + fraction * steps[i - first]))
+    found: Array = z[i] - np.asarray(weights) @ near
+    return found

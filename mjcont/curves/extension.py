@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -13,6 +14,7 @@ from mjcont.curves.collect import Progress, build_branch, completed, ordered_row
 from mjcont.curves.loci import default_ends, locus_detectors
 from mjcont.curves.walkers import equilibrium_walker
 from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused
@@ -28,7 +30,7 @@ from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Trace, Walker, trace
 from mjcont.results.branch import Branch
 from mjcont.results.model import check_bounds, model_of
-from mjcont.results.points import SpecialPoint
+from mjcont.results.points import Mark
 
 _ENDS = ("first", "last")
 _SAME = 1e-4
@@ -65,14 +67,12 @@ def extend(
     settings = make_settings({**_own_options(branch), **options})
     free = _free(branch, bounds)
     result = branch
-    for end in ends:
-        segment = _segment(result, end, free, settings, progress)
-        if segment is not None:
-            result = _join(result, segment, end)
-    result = replace(result, free={p.name: (p.low, p.high) for p in free})
-    points = _relabelled(result, [(p, p.index) for p in result.special_points])
-    object.__setattr__(result, "special_points", tuple(points))
-    return result
+    with clock.limited(settings.max_seconds):
+        for end in ends:
+            segment = _segment(result, end, free, settings, progress)
+            if segment is not None:
+                result = _join(result, segment, end)
+    return replace(result, free={p.name: (p.low, p.high) for p in free})
 
 
 def _own_options(branch: Branch) -> dict[str, Any]:
@@ -116,7 +116,11 @@ def _segment(
     if keep is None:
         return None
     index, before = (keep, keep + 1) if end == "first" else (len(branch) - 1 - keep, len(branch) - 2 - keep)
-    system = _system(branch, index, free)
+    with clock.unlimited():  # there is a start: a row of the branch
+        system = _system(branch, index, free)
+        start = _outward(system, branch, index, before, settings)
+    if isinstance(start, Refused):
+        return None
     zeros = branch.settings.get("zeros", {})
     if branch.kind == "equilibria":
         walker = equilibrium_walker(system, settings, zeros)
@@ -125,9 +129,6 @@ def _segment(
         stop = unfolding_stop(system) if kind == "BP" else None
         detectors = locus_detectors(kind, system, settings, True, zeros)
         walker = Walker(OneByOne(system, settings, detectors), stop, frozenset(default_ends(kind)))
-    start = _outward(system, branch, index, before, settings)
-    if isinstance(start, Refused):
-        return None
     run = trace(walker, start, reporter(walker.system, progress))
     return _as_branch(branch, system, run, end, settings, _length(system, branch, index, end))
 
@@ -204,41 +205,31 @@ def _has(branch: Branch, system: System, e: Located) -> bool:
 def _join(branch: Branch, segment: Branch, end: str) -> Branch:
     """Return one branch from a branch and the segment at one of its ends, relabelled."""
     front, back = (segment, branch) if end == "first" else (branch, segment)
-    width = max(branch.eigenvalues.shape[1], segment.eigenvalues.shape[1])
     ends = list(branch.ends) if len(branch.ends) == 2 else [*branch.ends, *branch.ends]
     ends[0 if end == "first" else 1] = segment.ends[0]
-    joined = replace(
+    return replace(
         branch,
         columns={
             n: replace(c, values=np.concatenate([front.columns[n].values, back.columns[n].values]))
             for n, c in branch.columns.items()
         },
         states=np.concatenate([front.states, back.states]),
-        eigenvalues=np.concatenate([_padded(front.eigenvalues, width), _padded(back.eigenvalues, width)]),
+        spectra=front.spectra.followed_by(back.spectra),
         stability=np.concatenate([front.stability, back.stability]),
         n_unstable=np.concatenate([front.n_unstable, back.n_unstable]),
         residuals=np.concatenate([front.residuals, back.residuals]),
-        special_points=(),
+        marks=_relabelled([*front.marks, *(replace(m, index=m.index + len(front)) for m in back.marks)]),
         ends=ends,
         start_index=branch.start_index + (len(segment) if end == "first" else 0),
         neutral_saddles=[*front.neutral_saddles, *back.neutral_saddles],
         certificate=None,  # its rows have moved
     )
-    points = [(p, p.index) for p in front.special_points]
-    points += [(p, p.index + len(front)) for p in back.special_points]
-    object.__setattr__(joined, "special_points", tuple(_relabelled(joined, points)))
-    return joined
 
 
-def _padded(eigenvalues: Array, width: int) -> Array:
-    fill = np.full((len(eigenvalues), width - eigenvalues.shape[1]), complex(np.nan, np.nan))
-    return np.hstack([eigenvalues, fill])
-
-
-def _relabelled(branch: Branch, points: Sequence[tuple[SpecialPoint, int]]) -> list[SpecialPoint]:
-    counts: dict[str, int] = {}
+def _relabelled(marks: Sequence[Mark]) -> list[Mark]:
+    counts: Counter[str] = Counter()
     found = []
-    for p, index in points:
-        counts[p.kind] = counts.get(p.kind, 0) + 1
-        found.append(replace(p, label=f"{p.kind}{counts[p.kind]}", index=index, free=branch.free))
+    for m in marks:
+        counts[m.kind] += 1
+        found.append(replace(m, label=f"{m.kind}{counts[m.kind]}"))
     return found

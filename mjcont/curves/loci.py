@@ -10,20 +10,21 @@ import numpy as np
 
 from mjcont.curves.collect import Progress, collect, run_directions
 from mjcont.curves.continuation import check_direction, hold_rigid_modes
-from mjcont.curves.walkers import monitor_of
+from mjcont.curves.walkers import Zeros, zero_detectors
 from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Detector
 from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of
-from mjcont.numerics.points.on_equilibria import zero_detector
 from mjcont.numerics.points.on_loci import fold_locus_detectors, hopf_locus_detectors, unfolding_stop
 from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.model import check_bounds, model_of
 from mjcont.results.points import SpecialPoint, show
+from mjcont.results.quantities import meant_each
 
 CODIMENSION = {code: KINDS[code].codimension for code in CONTINUABLE}
 
@@ -36,7 +37,7 @@ def continue_special(
     *,
     direction: int | None = None,
     end_at: Sequence[str] | None = None,
-    zeros: Mapping[str, float] | None = None,
+    zeros: Zeros | None = None,
     lyapunov: bool = True,
     progress: Progress | None = None,
     **options: Any,
@@ -55,7 +56,7 @@ def continue_special(
     direction : {None, +1, -1}
         Both directions, or that in which `parameter` first grows or falls.
     end_at : kinds of points that end the locus; default BT on a Hopf locus (beyond it lie neutral saddles).
-    zeros : columns whose passing of a value is located and labelled UZ.
+    zeros : columns whose passing of a value, or of several, is located and labelled UZ.
     lyapunov : whether l1 is computed along a Hopf locus (needed for GH).
 
     Returns
@@ -74,7 +75,8 @@ def continue_special(
     free = _freed(point, kind, free_parameters(point, parameter, bounds))
     system = locus_system(point, kind, free)
     stop: Callable[[Any], str | None] | None = unfolding_stop(system) if kind == "BP" else None
-    detectors = locus_detectors(kind, system, settings, lyapunov, zeros or {})
+    zeros = meant_each(zeros, system.names, point.model.observables)
+    detectors = locus_detectors(kind, system, settings, lyapunov, zeros)
     for name in end_at or ():
         if name not in KINDS:
             raise unknown_name("kind of special point", name, KINDS)
@@ -82,7 +84,8 @@ def continue_special(
     walker = Walker(OneByOne(system, settings, detectors), stop, ends)
     directions = check_direction(direction)
     lead = len(free) - 1
-    traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
+    with clock.limited(settings.max_seconds):
+        traces = run_directions(walker, point.state, system.start_y(), directions, progress, lead)
     where = ", ".join(f"{p.name} = {show(system.base[p.name], p.unit)}" for p in free)
     locus = collect(f"{kind} locus", system, traces, directions, f"from {point.label} at {where}", settings)
     return replace(locus, settings={**locus.settings, "zeros": dict(zeros)}) if zeros else locus
@@ -166,7 +169,7 @@ def locus_system(point: SpecialPoint, kind: str, free: Sequence[Free]) -> System
 
 
 def locus_detectors(
-    kind: str, system: System, settings: Settings, lyapunov: bool, zeros: Mapping[str, float]
+    kind: str, system: System, settings: Settings, lyapunov: bool, zeros: Zeros
 ) -> list[Detector]:
     """Return the detectors of a locus of special points of a kind."""
     found: list[Detector] = []
@@ -174,9 +177,6 @@ def locus_detectors(
         found += fold_locus_detectors(system, system.conditions[0], settings)  # type: ignore[arg-type]
     elif kind == "HB":
         found += hopf_locus_detectors(system, system.conditions[0], settings, lyapunov=lyapunov)  # type: ignore[arg-type]
-    for name, value in zeros.items():
-        monitor = monitor_of(model_of(system.problem), name, value)
-        found.append(zero_detector(system, monitor, f"{name} = {value:g}", settings))
-    return found
+    return [*found, *zero_detectors(system, settings, zeros)]
 
 

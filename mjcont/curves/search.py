@@ -7,7 +7,6 @@ known so far, from beside them, and with runs from mixtures of them, until nothi
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -19,14 +18,17 @@ from mjcont.curves.collect import Found, Progress, make_point
 from mjcont.curves.continuation import hold_rigid_modes
 from mjcont.errors import BoundsError, ParameterError, unknown_name
 from mjcont.mechanism.energy import potential_energy
-from mjcont.numerics.equations.newton import find_start, solve
+from mjcont.numerics.equations import clock
+from mjcont.numerics.equations.newton import solve
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.starts import find_start
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.search.coordinates import Coordinates, layout, with_turns
 from mjcont.numerics.search.deflation import Deflation, newton
 from mjcont.numerics.search.multistart import Many, Runs, levenberg_marquardt, spectral_step
 from mjcont.results.model import Model
 from mjcont.results.points import Point
+from mjcont.results.quantities import column_of, meant
 from mjcont.results.search import Account, Equilibria, gather, same_spectrum
 
 Region = Mapping[str, tuple[float, float]] | Callable[[Point], bool]
@@ -41,6 +43,7 @@ _BARREN = 8
 _SINGULAR = 1e-9
 _CONTINUUM = 20
 _ROUNDS_FOR_NONE = 3
+_UNEVEN = 1.0 / math.e
 
 
 def find_equilibria(
@@ -95,9 +98,9 @@ def find_equilibria(
             raise ParameterError(f"{name} must be at least 1, got {number}")
     search = _prepare(problem, _parameter_values(problem, params), region)
     most, spent = 25 * starts if max_starts is None else max_starts, search.problem.evaluations
-    limits = _Limits(max_solutions, most, max_evaluations, max_seconds, spent, time.monotonic())
+    limits = _Limits(max_solutions, most, max_evaluations, max_seconds, spent)
     first = [problem.start_state(), *problem.keyframes.values()] if keyframes else []
-    with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"), clock.limited(max_seconds):
         ended = search.run(first, starts, seed, limits, progress)
     energies = potential_energy(problem, np.array(search.kept), search.values)
     shown = tuple(name for name in search.ranges if name in problem.observables)
@@ -111,7 +114,8 @@ def _prepare(problem: Model, values: dict[str, float], region: Region | None) ->
     held, notes = hold_rigid_modes(problem, home, values)
     single = bool(notes) or problem.own_jacobian
     labels = problem.state_labels
-    coordinates = Coordinates(held, layout(labels, problem.state_scale, home, ranges))
+    entries = {name.removeprefix("joint:").removeprefix("state:"): ends for name, ends in ranges.items()}
+    coordinates = Coordinates(held, layout(labels, problem.state_scale, home, entries))
     search = _Search(held, values, coordinates, _many(held, values, coordinates, single), ranges, region, notes)
     search.learn_turns(labels)
     return search
@@ -133,7 +137,8 @@ def _ranges(problem: Model, region: Region | None) -> dict[str, tuple[float, flo
     valid = [*problem.observables, *problem.parameters, *(name for name, _ in problem.state_labels)]
     ranges = {}
     for name, bounds in region.items():
-        if name not in valid:
+        own = meant(name, (), problem.observables)
+        if own not in valid:
             raise unknown_name("observable, joint or parameter", name, valid)
         try:
             low, high = (float(b) for b in bounds)
@@ -141,7 +146,7 @@ def _ranges(problem: Model, region: Region | None) -> dict[str, tuple[float, flo
             raise BoundsError(f"region: {name} must have two numbers (low, high), got {bounds!r}") from error
         if not low < high:
             raise BoundsError(f"region: {name} must have low < high, got ({low:g}, {high:g})")
-        ranges[name] = (low, high)
+        ranges[own] = (low, high)
     return ranges
 
 
@@ -158,7 +163,11 @@ class _Limits:
     evaluations: int | None
     seconds: float
     evaluations_before: int
-    began: float
+
+    def __post_init__(self) -> None:
+        """Refuse a time that is none."""
+        if not self.seconds >= 0:
+            raise ParameterError(f"max_seconds must be a number of seconds, got {self.seconds}")
 
     def reached(self, search: _Search) -> str:
         """Return a sentence if a limit is reached, else an empty string."""
@@ -168,8 +177,6 @@ class _Limits:
             return f"the limit of {self.solutions} equilibria was reached: there may be more"
         if self.evaluations is not None and search.problem.evaluations - self.evaluations_before >= self.evaluations:
             return f"the limit of {self.evaluations} evaluations was reached"
-        if time.monotonic() - self.began >= self.seconds:
-            return f"the limit of {self.seconds:g} s was reached"
         return ""
 
 
@@ -200,7 +207,8 @@ class _Search:
 
     def learn_turns(self, labels: Any) -> None:
         """Give a period to the angles whose full turns change nothing."""
-        cube = qmc.Halton(self.problem.n, scramble=False).random(4)[1:]
+        # even points of symmetric ranges are often equilibria themselves, at which f is rounding
+        cube = (qmc.Halton(self.problem.n, scramble=False).random(4)[1:] + _UNEVEN) % 1.0
         states = self.coordinates.draw(cube)
         slots = with_turns(self.coordinates.slots, labels, states, self.many.residuals)
         self.coordinates = Coordinates(self.problem, slots)
@@ -233,6 +241,8 @@ class _Search:
                 if barren and self._enough(rounds, barren):
                     return limits.reached(self)
             return ended
+        except clock.TimeUp:
+            return f"the limit of {limits.seconds:g} s was reached"
         except KeyboardInterrupt:
             return "interrupted: this is what had been found"
 
@@ -280,7 +290,7 @@ class _Search:
         zero (Poincare-Hopf), as long as no equilibrium is degenerate and no range of an angle is searched less.
         """
         slots = self.coordinates.slots
-        if len(self.coordinates.turning) < len(slots) or any(s.name in self.ranges for s in slots):
+        if len(self.coordinates.turning) < len(slots) or any(column_of(s.name, self.ranges) for s in slots):
             return None
         return int(round(sum(self.signs)))
 
@@ -363,8 +373,17 @@ class _Search:
         return len(self.points) - 1
 
     def _rigid_copy(self, point: Point) -> int:
-        """Return the place of an equilibrium with the same spectrum: with held modes, the same in another place."""
+        """Return the place of an equilibrium that is the same in another place along held modes, -1 if there is none.
+
+        Motions of parts change coordinates in proportion; with motions of the whole model the spectrum tells.
+        """
+        straight = self.problem.holds_straight()
         for i, other in enumerate(self.points):
-            if same_spectrum(point, other):
+            if same_spectrum(point, other) and (not straight or self._apart_by_modes_only(point.state, other.state)):
                 return i
         return -1
+
+    def _apart_by_modes_only(self, x: Array, y: Array) -> bool:
+        step = self.coordinates.steps(x[None], y[None])[0, 0] * self.problem.state_scale
+        rest = self.problem.admissible(y, step) / self.problem.state_scale
+        return bool(np.abs(rest).max() < _SAME)

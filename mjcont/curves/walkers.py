@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from mjcont.curves.collect import make_point
 from mjcont.numerics.equations.problem import Array, Values
@@ -13,7 +13,6 @@ from mjcont.numerics.points.events import Detector
 from mjcont.numerics.points.on_equilibria import (
     BranchPointDetector,
     HopfDetector,
-    MultipleDetector,
     fold_detector,
     zero_detector,
 )
@@ -23,6 +22,10 @@ from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.model import Model, model_of
 from mjcont.results.points import Point
+from mjcont.results.quantities import finite
+
+# columns, each with the value, or the values, whose passing is located
+Zeros = Mapping[str, float | Sequence[float]]
 
 
 def point_stop(
@@ -49,27 +52,41 @@ def point_stop(
 
 
 def equilibrium_detectors(
-    system: System, settings: Settings, zeros: Mapping[str, float]
+    system: System, settings: Settings, zeros: Zeros
 ) -> list[Detector]:
     """Return the detectors of a curve of equilibria, the one that guards against other branches first."""
     detectors: list[Detector] = [
         BranchPointDetector(system, settings),
         fold_detector(system, settings),
         HopfDetector(system, settings),
-        MultipleDetector(system, settings),
     ]
     if system.problem.nonsmooth:
         detectors.append(CornerDetector(system, settings))
-    for name, value in zeros.items():
-        monitor = monitor_of(model_of(system.problem), name, value)
-        detectors.append(zero_detector(system, monitor, f"{name} = {value:g}", settings))
-    return detectors
+    return [*detectors, *zero_detectors(system, settings, zeros)]
+
+
+def zero_values(zeros: Zeros | None) -> list[tuple[str, float]]:
+    """Return columns and values, one pair for each value; a MjcontError where one is not a finite number."""
+    return [
+        (name, finite(f"zeros: the value of {name}", value))
+        for name, given in (zeros or {}).items()
+        for value in (given if isinstance(given, Sequence) else [given])
+    ]
+
+
+def zero_detectors(system: System, settings: Settings, zeros: Zeros | None) -> list[Detector]:
+    """Return what finds where columns pass the values that the user asks for."""
+    problem = model_of(system.problem)
+    return [
+        zero_detector(system, monitor_of(problem, name, value), f"{name} = {value:g}", settings)
+        for name, value in zero_values(zeros)
+    ]
 
 
 def equilibrium_walker(
     system: System,
     settings: Settings,
-    zeros: Mapping[str, float],
+    zeros: Zeros,
     stop: Callable[[CurvePoint], str | None] | None = None,
 ) -> Walker:
     """Return what walks along a curve of equilibria, with long steps where points inside them are cheap.

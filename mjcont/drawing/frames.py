@@ -16,6 +16,7 @@ from mjcont.errors import MjcontError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
+from mjcont.outside.escapes import for_picture
 from mjcont.results.branch import Branch
 from mjcont.results.histories import History
 from mjcont.results.loadpaths import Jump, LoadPath
@@ -114,7 +115,7 @@ def frames_of(track: Track, count: int) -> list[Frame]:
         step = track.problem.difference(track.states[i + 1], track.states[i])
         place = [float(c[i] + part * (c[i + 1] - c[i])) for c in (track.x, track.y)]
         state = track.problem.retract(track.states[i], part * step)
-        shown = ", ".join(f"{n} = {show(values[n], u, 6)}" for n, u in track.named.items())
+        shown = ", ".join(f"{for_picture(n)} = {show(values[n], u, 6)}" for n, u in track.named.items())
         shown = shown or f"time = {now:.{digits}f} s"
         note = f", {track.notes[i]}" if track.notes[i] else ""
         frames.append(Frame(state, values, place[0], place[1], i, shown + note))
@@ -139,7 +140,7 @@ def _of_branch(branch: Branch, x: str, y: str) -> Track:
 def _of_path(path: LoadPath, x: str, y: str) -> Track:
     """Return the rows of a path with the motions of its jumps between them."""
     xs, ys, states = path[x], path[y], path.states
-    values = [s.branch.row(int(i)).parameters for s in path.segments for i in s.rows()]
+    values = [s.branch.parameters_at(int(i)) for s in path.segments for i in s.rows()]
     notes, clock = [""] * len(path), _arclength(xs, ys, xs, ys)
     # from the last row on, so that those before keep their numbers
     for jump in sorted(path.jumps, key=lambda j: -j.index):

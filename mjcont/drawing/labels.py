@@ -13,6 +13,7 @@ from mjcont.drawing.shapes import Shape
 from mjcont.drawing.sketch import FORCE, INK, arrow
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
+from mjcont.outside.escapes import for_picture
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,13 +53,13 @@ def write_labels(ax: Axes, shown: Picture, unit: float, labels: Labels, scale: f
 def _wanted(labels: Labels, kind: str, name: str) -> str:
     """Return what to write for a name; nothing where it is not wanted."""
     if isinstance(labels, bool):
-        return name if labels else ""
+        return for_picture(name) if labels else ""
     if isinstance(labels, Mapping):
-        return str(labels.get(name, name))
+        return str(labels[name]) if name in labels else for_picture(name)
     unknown = [k for k in ([labels] if isinstance(labels, str) else labels) if k not in KINDS]
     if unknown:
         raise unknown_name("kind of label", str(unknown[0]), KINDS)
-    return name if kind in labels else ""
+    return for_picture(name) if kind in labels else ""
 
 
 # -- what may be named, and where ------------------------------------------------------------------------------

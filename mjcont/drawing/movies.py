@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import io
+import os
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Callable, Iterator
 from itertools import chain
 from pathlib import Path
@@ -12,7 +15,7 @@ import numpy as np
 
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.files import write_atomically
+from mjcont.outside.saving import check_writable, write_file
 
 SUFFIXES = (".gif", ".mp4")
 # a GIF counts hundredths of a second, and viewers slow down below two of them
@@ -29,8 +32,7 @@ def check_movie(path: Path, fps: float) -> None:
     if suffix not in SUFFIXES:
         valid = ", ".join(SUFFIXES)
         raise MjcontError(f"cannot write an animation as '{path.name}': the suffix must be one of {valid}")
-    if not path.parent.is_dir():
-        raise MjcontError(f"cannot write {path}: the folder {path.parent} does not exist")
+    check_writable(path)
     if suffix == ".gif" and fps > _GIF_FPS:
         raise MjcontError(f"a GIF shows at most {_GIF_FPS:g} frames a second, got fps = {fps:g}; an MP4 shows more")
     if suffix == ".mp4":
@@ -47,15 +49,15 @@ def write_movie(path: Path, draw: Draw, count: int, fps: float, progress: Progre
                 progress(k + 1, count)
 
     if path.suffix.lower() == ".mp4":
-        return write_atomically(path, lambda temporary: _write_mp4(temporary, frames(), fps))
+        return write_file(path, _mp4(path, frames(), fps))
     some = np.unique(np.linspace(0, count - 1, _FOR_PALETTE).round().astype(int))
     samples = np.concatenate([draw(int(k)) for k in some])
     ticks = np.diff((100.0 * np.arange(count + 1) / fps).round()).astype(int)
-    return write_atomically(path, lambda temporary: _write_gif(temporary, frames(), samples, 10 * ticks))
+    return write_file(path, _gif(frames(), samples, 10 * ticks))
 
 
-def _write_gif(path: Path, frames: Iterator[Array], samples: Array, durations: Array) -> None:
-    """Write frames, each for so many milliseconds, in the colours of some of them."""
+def _gif(frames: Iterator[Array], samples: Array, durations: Array) -> bytes:
+    """Return frames, each for so many milliseconds, in the colours of some of them."""
     from PIL import Image
 
     # one palette for all frames: colours do not flicker, and only what moves is stored
@@ -65,8 +67,9 @@ def _write_gif(path: Path, frames: Iterator[Array], samples: Array, durations: A
     palette.putpalette(colors.ravel().tolist())
     images = (Image.fromarray(f).quantize(palette=palette, dither=Image.Dither.NONE) for f in frames)
     first = next(images)
-    with path.open("wb") as file:  # Pillow leaves its own open when interrupted
-        first.save(file, format="GIF", save_all=True, append_images=images, loop=0, duration=durations.tolist())
+    made = io.BytesIO()
+    first.save(made, format="GIF", save_all=True, append_images=images, loop=0, duration=durations.tolist())
+    return made.getvalue()
 
 
 def _ffmpeg() -> str:
@@ -82,14 +85,27 @@ def _ffmpeg() -> str:
     return found
 
 
-def _write_mp4(path: Path, frames: Iterator[Array], fps: float) -> None:
+def _mp4(path: Path, frames: Iterator[Array], fps: float) -> bytes:
+    """Return frames as ffmpeg makes them into a movie; it writes into memory where the system can, else a folder."""
+    if hasattr(os, "memfd_create"):
+        memory = os.memfd_create("mjcont")
+        with os.fdopen(memory, "rb") as made:
+            _run_ffmpeg(path, f"/dev/fd/{memory}", frames, fps, (memory,))
+            return made.read()
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder) / "movie.mp4"
+        _run_ffmpeg(path, str(place), frames, fps)
+        return place.read_bytes()
+
+
+def _run_ffmpeg(path: Path, out: str, frames: Iterator[Array], fps: float, kept: tuple[int, ...] = ()) -> None:
     first = next(frames)
     # what every player shows needs an even number of pixels each way
     height, width = (2 * (n // 2) for n in first.shape[:2])
     given = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", f"{fps:.6g}", "-i", "-"]
-    wanted = ["-an", "-vcodec", "libx264", "-pix_fmt", "yuv420p", "-f", "mp4", str(path)]
+    wanted = ["-an", "-vcodec", "libx264", "-pix_fmt", "yuv420p", "-f", "mp4", out]
     command = [_ffmpeg(), "-y", "-loglevel", "error", *given, *wanted]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, pass_fds=kept) as process:
         assert process.stdin is not None and process.stderr is not None
         try:
             for frame in chain([first], frames):
@@ -102,4 +118,4 @@ def _write_mp4(path: Path, frames: Iterator[Array], fps: float) -> None:
         _, said = process.communicate()
     if process.returncode != 0:
         lines = said.decode(errors="replace").strip().splitlines() or ["no reason given"]
-        raise MjcontError(f"ffmpeg could not write the animation: {lines[-1]}")
+        raise MjcontError(f"cannot write {path}: ffmpeg could not make the animation: {lines[-1]}")

@@ -6,6 +6,8 @@ by the Agg canvas and need no display.
 
 from __future__ import annotations
 
+import io
+import warnings
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,10 +19,12 @@ from mjcont.drawing.loadpaths import draw_path
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
+from mjcont.outside.escapes import for_picture
+from mjcont.outside.saving import write_file
 from mjcont.results.branch import Branch
-from mjcont.results.files import write_atomically
 from mjcont.results.loadpaths import LoadPath
 from mjcont.results.points import SpecialPoint, show
+from mjcont.results.quantities import column_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -302,16 +306,19 @@ def save_figure(figure: Figure, path: str | Path, *, dpi: float = 200.0) -> Path
     }
     if path.suffix.lower() not in dates:
         raise MjcontError(f"cannot write a figure as '{path.name}': the suffix must be one of {', '.join(dates)}")
-    figure.draw_without_rendering()
-    for ax in figure.axes:
-        place_labels(ax)
     metadata = dates[path.suffix.lower()]
 
-    def write(temporary: Path) -> None:
-        with matplotlib.rc_context({"svg.hashsalt": "mjcont"}):
-            figure.savefig(temporary, dpi=dpi, metadata=metadata)
-
-    return write_atomically(path, write)
+    picture = io.BytesIO()
+    with matplotlib.rc_context({"svg.hashsalt": "mjcont"}), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing from")  # a box stands for it
+        try:
+            figure.draw_without_rendering()
+            for ax in figure.axes:
+                place_labels(ax)
+            figure.savefig(picture, format=path.suffix.lower()[1:], dpi=dpi, metadata=metadata)
+        except ValueError as error:  # a text between $ is drawn as a formula
+            raise MjcontError(f"cannot draw {path}: {' '.join(str(error).split())}") from error
+    return write_file(path, picture.getvalue())
 
 
 def _check(branches: Sequence[Any], legend: Sequence[str] | bool | None, paths: bool = False) -> None:
@@ -328,8 +335,9 @@ def _check(branches: Sequence[Any], legend: Sequence[str] | bool | None, paths: 
 
 def _unit(branch: Branch, name: str) -> str:
     """Return the unit of a column, also of a parameter that the branch holds fixed."""
-    if name in branch.columns or branch.problem is None:
-        return branch.units.get(name, "")
+    own = column_of(name, branch.columns)
+    if own is not None or branch.problem is None:
+        return branch.units.get(own or name, "")
     return str(branch.model.parameter(name).unit)
 
 
@@ -360,7 +368,8 @@ def _names(branches: Sequence[Branch], legend: Sequence[str] | bool | None) -> l
     names = []
     for i, b in enumerate(branches):
         parts = [b.kind] if len({c.kind for c in branches}) > 1 else []
-        parts += [f"{n} = {show(b.fixed[n], _unit(b, n).replace('*', ' '), 4)}" for n in differing]
-        parts = parts or ([b.name] if len({c.name for c in branches}) == len(branches) else [f"branch {i + 1}"])
+        parts += [f"{for_picture(n)} = {show(b.fixed[n], _unit(b, n).replace('*', ' '), 4)}" for n in differing]
+        own = for_picture(b.name) if len({c.name for c in branches}) == len(branches) else f"branch {i + 1}"
+        parts = parts or [own]
         names.append(", ".join(parts))
     return names

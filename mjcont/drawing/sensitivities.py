@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mjcont.errors import ParameterError
+from mjcont.outside.escapes import for_picture
 from mjcont.results.points import show
 
 if TYPE_CHECKING:
@@ -35,12 +36,12 @@ def draw_tornado(s: Sensitivities, quantity: str, most: int, ax: Any) -> Any:
     axes.barh(at, -change, height=0.62, color=_LESS, hatch="////", edgecolor="white", linewidth=0.0,
               label="parameter down")
     axes.axvline(0.0, color="#333333", linewidth=0.8)
-    labels = [f"{n}  \u00b1{show(s.tolerances[n], s.units[n], 3)}" for n in names]
+    labels = [f"{for_picture(n)}  \u00b1{show(s.tolerances[n], s.units[n], 3)}" for n in names]
     axes.set_yticks(at, labels)
     axes.grid(visible=False, axis="y")
-    axes.set_xlabel(f"change of {quantity}" + (f" [{unit}]" if unit not in ("", "1") else ""))
+    axes.set_xlabel(f"change of {for_picture(quantity)}" + (f" [{unit}]" if unit not in ("", "1") else ""))
     rest = len(s.parameters) - len(names)
-    title = f"{quantity} = {show(s.values[quantity], s.units[quantity], 6)}"
+    title = f"{for_picture(quantity)} = {show(s.values[quantity], s.units[quantity], 6)}"
     axes.set_title(title + (f"   ({rest} more move it less or not)" if rest else ""), loc="left", fontsize=9.5)
     if names:
         axes.legend(loc="lower right", frameon=True, framealpha=0.9, edgecolor="none")

@@ -168,7 +168,13 @@ def load_side(m: mujoco.MjModel, d: mujoco.MjData) -> bytes:
         touching = kind >= _CONTACT
         pair = d.contact.geom[index[touching]]
         index[touching] = pair[:, 0] * m.ngeom + pair[:, 1]
-    return kind.tobytes() + index.tobytes()
+    held = d.contact.geom.tobytes() if d.ncon and _adhesion(m) else b""  # it acts on contacts that bear nothing, too
+    return kind.tobytes() + index.tobytes() + held
+
+
+def _adhesion(m: mujoco.MjModel) -> bool:
+    """Whether an actuator pulls at the contacts of a body."""
+    return bool(np.any(m.actuator_trntype == int(mujoco.mjtTrn.mjTRN_BODY)))
 
 
 def _loaded(m: mujoco.MjModel, d: mujoco.MjData) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""The models that a Mechanism works on, and what evaluates them: one core for the mechanism and its copies."""
+"""The models that a Mechanism works on, and what evaluates them: one core in each thread, for it and its copies."""
 
 from __future__ import annotations
 
@@ -21,15 +21,22 @@ _DISABLE = mujoco.mjtDisableBit
 # what numerics and verbs ask of a Mechanism, and no user needs
 ENGINE = frozenset(
     """
-    active admissible constrained difference_each failure first_order held holding linearize_along measure_along
-    nonsmooth own_jacobian parameter_stencil passive pencils periods residuals residuals_along retract_each
-    rigid_directions rigid_modes second_order side_by_side writer
+    active admissible constrained declare_again difference_each failure first_order follows_scale held holding
+    holds_straight linearize_along measure_along nonsmooth own_jacobian parameter_stencil passive pencils periods pieces
+    rescaled residuals residuals_along retract_each rigid_directions rigid_modes second_order side_by_side writer
     """.split()
 )
 
 
 class Core:
     """One model in three copies: as loaded, for residuals, for observables.
+
+    Parameters
+    ----------
+    model : MjModel
+        With the layout that the parameters need; taken over.
+    moved : moves states (m, nq) by tangent steps (m, nv).
+    evaluations : where to begin to count.
 
     Attributes
     ----------
@@ -48,18 +55,15 @@ class Core:
         constrained: bool,
         scale: Array,
         moved: Callable[[Array, Array], Array],
+        evaluations: int = 0,
     ) -> None:
-        self.parameters, self.geometry, self.constrained = parameters, geometry, constrained
-        self._scale, self._moved = scale, moved
-        self._take(geometry.with_layout(model, parameters), 0)
-
-    def _take(self, model: mujoco.MjModel, evaluations: int) -> None:
+        self.parameters, self.geometry = parameters, geometry
         self.loaded, self.model = copy_model(model), evaluation_copy(model)
         self.writer = self.writer_of(self.model)
-        self.readings = Readings(model, self.parameters, self.writer_of(model), self.constrained)
-        self.evaluator = Evaluator(self.model, self.writer, self.constrained, evaluations)
+        self.readings = Readings(model, self.parameters, self.writer_of(model), constrained)
+        self.evaluator = Evaluator(self.model, self.writer, constrained, evaluations)
         self.nonsmooth = self.evaluator.nonsmooth
-        self.derivatives = Derivatives(self.evaluator, self.writer, self.parameters, self._scale, self._moved)
+        self.derivatives = Derivatives(self.evaluator, self.writer, parameters, scale, moved)
 
     def writer_of(self, model: mujoco.MjModel) -> FieldWriter:
         """Return what writes parameter values into a copy of the model."""
@@ -69,11 +73,6 @@ class Core:
         """Return the model on which residuals are evaluated, every parameter at the model's own value."""
         self.writer.write(self.parameters, {name: p.value for name, p in self.parameters.items()})
         return self.model
-
-    def relayout(self) -> None:
-        """Take models of the layout that compiled ones have: a parameter of the spec was declared."""
-        if self.loaded.body_simple.any():
-            self._take(self.geometry.with_layout(self.loaded, self.parameters), self.evaluator.count)
 
 
 def copy_model(model: mujoco.MjModel) -> mujoco.MjModel:

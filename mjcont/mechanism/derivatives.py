@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mjcont.mechanism.evaluation import Evaluator
-from mjcont.mechanism.sides import difference_rule, one_sided, parameter_rate
+from mjcont.mechanism.sides import difference_rule, on_one_side, parameter_rate
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.numerics.equations.differences import FORWARD, jacobian_from_rows, jacobian_steps, stencil
 from mjcont.numerics.equations.problem import Array, Linearization, Range, Ranges, Stencil, Values
@@ -50,17 +50,18 @@ class Derivatives:
         f, sides = rows[0].copy(), self.evaluator.sides
         jac = jacobian_from_rows(rows[1:], self.scale, rule)
         if sides and not self.writer.failure:
-            jac = one_sided(jac, rows, sides, steps, lambda finer: self._pieces(x, finer))
+            jac = on_one_side(jac, rows, sides, steps, lambda finer: self._pieces(x, finer), accurate)
+        piece = b"".join(sides[:1])
         if len(riders) == len(wrt):
-            return Linearization(f, jac, rates.T)
+            return Linearization(f, jac, rates.T, piece)
         par = np.empty((len(f), len(wrt)))
         for k, name in enumerate(wrt):
             if name in riders:
                 par[:, k] = rates[riders.index(name)]
             else:
-                par[:, k] = self._in_parameter(x, values, name, f, within[name], b"".join(sides[:1]))
+                par[:, k] = self._in_parameter(x, values, name, f, within[name], piece)
         self.writer.write(self.parameters, values)
-        return Linearization(f, jac, par)
+        return Linearization(f, jac, par, piece)
 
     def _with_riders(
         self, x: Array, values: Values, moved: Array, riders: Mapping[str, Range | None]

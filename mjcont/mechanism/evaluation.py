@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import mujoco
 import numpy as np
 
 from mjcont.mechanism.batches import ConstrainedRows, Rows
 from mjcont.mechanism.kinks import Kinks
 from mjcont.mechanism.writer import FieldWriter
-from mjcont.models.features import passive
+from mjcont.models.features import explicit_damping, linear_in_velocity
 from mjcont.models.quiet import Warned, quiet
+from mjcont.numerics.equations.clock import check
 from mjcont.numerics.equations.problem import Array
 
 _DISABLE = mujoco.mjtDisableBit
+# MuJoCo's own guard of a denominator
+_SHORTEST = mujoco.mjMINVAL
 _MAX_BATCHES = 32
 _ACCELERATION_STEPS = (1e-3, 1e-6)
 _VELOCITY_STEPS = (1.0, 1e-3, 1e-6)
-# at unit speed drag counts that is not there at rest
-_DRAG_STEPS = (1e-4, 1e-6)
+# after unit speed, for forces that are curved in velocity: until each entry of C is known to this part of the dampers
+# of its row and column
+_FINER_SPEEDS, _KNOWN = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7), 1e-7
 
 
 class Evaluator:
@@ -53,6 +59,7 @@ class Evaluator:
 
         `ctrl` (m, nu) gives smooth models rows with controls of their own.
         """
+        check()
         self.count += len(qpos)
         if self.writer.failure:  # no model there: a curve ends, as one does where a function leaves its domain
             return np.full((len(qpos), self.model.nv), np.nan)
@@ -129,28 +136,21 @@ class Evaluator:
         return dense
 
     def damping(self, x: Array, scale: Array) -> Array:
-        """Return -d forces/dv at rest, (nv, nv), centred: exact for linear dampers, and for drag that is quadratic.
+        """Return -d forces/dv at rest, (nv, nv).
 
-        Where such a velocity releases a contact or saturates an actuator, smaller ones are taken. Of a model with
-        nothing but dampers on joints, on tendons and along actuators the matrix is computed without differences.
+        It is computed without differences where dampers on joints, on tendons and along actuators are all, by unit
+        steps where forces are linear in velocity (smaller ones where those release a contact or saturate an actuator),
+        and by extrapolation elsewhere.
         """
         if self._dampers is not None and not self.writer.failure:
             return self._dampers.matrix(self.position(x))
-        for size in _DRAG_STEPS if self._drag else _VELOCITY_STEPS:
-            found, smooth = self._damping(x, size * scale)
-            if self._drag:
-                found = 2.0 * found - self._damping(x, 2.0 * size * scale)[0]
-            if smooth:
-                break
-        return found
-
-    @property
-    def _drag(self) -> bool:
-        """Whether forces depend on velocity otherwise than linearly."""
-        m = self.model
-        return bool(m.opt.density) or any(
-            p.any() for p in (m.dof_dampingpoly, m.tendon_dampingpoly, m.actuator_dampingpoly)
-        )
+        if linear_in_velocity(self.model):
+            for size in _VELOCITY_STEPS:
+                found, smooth = self._damping(x, size * scale)
+                if smooth:
+                    break
+            return found
+        return settled(lambda size: self._damping(x, size * scale))
 
     def _damping(self, x: Array, h: Array) -> tuple[Array, bool]:
         """Return -d forces/dv by steps `h`, and whether they stay on one smooth piece of the forces."""
@@ -161,25 +161,29 @@ class Evaluator:
 
 
 class Dampers:
-    """Dampers on joints, on tendons and along actuators of one model, read from it whenever the matrix is asked for.
+    """Dampers of one model where they are known in closed form: C = sum of c J'J, without differences.
 
-    The damping matrix of a passive model is the sum of c J'J over its dampers, without differences.
+    They sit on joints, on tendons and along actuators. An actuator's force g(l, v) u + b(l, v), of the length l, its
+    velocity v and the input u, resists with c = -(dg/dv u + db/dv). An affine gain or bias says so itself. A muscle's
+    gain is -F_0 FL(l) FV(V), with V = v / (L_0 v_max), FV(0) = 1 and FV'(0) = 2 on either side of rest, whatever its
+    fvmax. All is read from the model whenever the matrix is asked for.
     """
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self._model = model
         self._moments = np.zeros((model.nactuator + model.ntendon, model.nv))
+        self._varying = np.flatnonzero(model.actuator_gaintype != int(mujoco.mjtGain.mjGAIN_FIXED))
 
     @classmethod
     def of(cls, model: mujoco.MjModel) -> Dampers | None:
         """Return the dampers of a model in which nothing else depends on velocity, or None."""
         off = int(model.opt.disableflags) & (int(_DISABLE.mjDSBL_ACTUATION) | int(_DISABLE.mjDSBL_DAMPER))
-        return None if off or model.opt.disableactuator or not passive(model) else cls(model)
+        return None if off or model.opt.disableactuator or not explicit_damping(model) else cls(model)
 
     def matrix(self, data: mujoco.MjData) -> Array:
         """Return C, (nv, nv), from data in which everything that depends on position is computed."""
         m, found = self._model, np.diag(self._model.dof_damping)
-        along, on = m.actuator_damping - m.actuator_biasprm[:, 2], m.tendon_damping
+        along, on = m.actuator_damping + self._laws(data), m.tendon_damping
         if along.any():
             moments = self._moments[: m.nactuator]
             where = data.moment_rownnz, data.moment_rowadr, data.moment_colind
@@ -190,3 +194,45 @@ class Dampers:
             mujoco.mju_sparse2dense(moments, data.ten_J, m.ten_J_rownnz, m.ten_J_rowadr, m.ten_J_colind)
             found += (moments.T * on) @ moments
         return found
+
+    def _laws(self, data: mujoco.MjData) -> Array:
+        """Return the damping constants of actuators from their gains and biases, (nactuator,)."""
+        m = self._model
+        found = np.where(m.actuator_biastype == int(mujoco.mjtBias.mjBIAS_AFFINE), -m.actuator_biasprm[:, 2], 0.0)
+        for a in self._varying:
+            prm, at = m.actuator_gainprm[a], int(m.actuator_actadr[a])
+            slope = prm[2]
+            if m.actuator_gaintype[a] == int(mujoco.mjtGain.mjGAIN_MUSCLE):
+                reach, acc0 = m.actuator_lengthrange[a], m.actuator_acc0[a]
+                gain = mujoco.mju_muscleGain(data.actuator_length[a], 0.0, reach, acc0, prm[:9])
+                slope = 2.0 * gain * (prm[1] - prm[0]) / (max(reach[1] - reach[0], _SHORTEST) * max(prm[6], _SHORTEST))
+            found[a] -= slope * (data.act[at] if at >= 0 else data.ctrl[m.actuator_ctrladr[a]])
+        return found
+
+
+def settled(matrix: Callable[[float], tuple[Array, bool]]) -> Array:
+    """Return the limit for small steps of a difference matrix, entry by entry where its error is least.
+
+    An entry that a unit step tells exactly (a linear damper, however stiff) is taken from that, any other one from
+    steps tenfold finer each time, whose first-order error (a muscle's force is curved otherwise on either side of
+    rest) is taken out by extrapolation. The change from one estimate to the next is the error of both.
+
+    Parameters
+    ----------
+    matrix : from the size of a step to the matrix, and whether the step stays on one smooth piece of the forces.
+    """
+    unit, smooth = matrix(1.0)
+    last, fine = matrix(_FINER_SPEEDS[0])
+    best, error = (unit, np.abs(unit - last)) if smooth else (last, np.full(last.shape, np.inf))
+    estimate = None
+    for size in _FINER_SPEEDS[1:]:
+        here, smooth = matrix(size)
+        finer = (10.0 * here - last) / 9.0 if fine else here
+        change = np.abs(finer - (last if estimate is None else estimate))
+        better = change < error if fine else np.full(here.shape, True)
+        best, error = np.where(better, finer, best), np.where(better, change if fine else np.inf, error)
+        last, fine, estimate = here, smooth, finer
+        dampers = np.sqrt(np.abs(np.diag(best)))
+        if fine and np.all(error <= _KNOWN * np.outer(dampers, dampers)):
+            break
+    return best

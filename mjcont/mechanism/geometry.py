@@ -11,6 +11,7 @@ from __future__ import annotations
 import copy
 import dataclasses
 import math
+import threading
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -64,6 +65,11 @@ class Geometry:
         self._reference: mujoco.MjModel | None = None
         self._models: OrderedDict[tuple[tuple[str, float], ...], mujoco.MjModel | NotCompiled] = OrderedDict()
         self._most = _CACHED
+        self._lock = threading.RLock()  # threads share the spec and what was compiled from it
+
+    def anew(self) -> Geometry:
+        """Return the same spec for another Mechanism, whose names mean what it declares."""
+        return Geometry(self._given, self._folder)
 
     def _open(self, name: str) -> mujoco.MjSpec:
         """Return the spec, prepared when the first parameter asks for it."""
@@ -103,7 +109,11 @@ class Geometry:
         ModelError
             If the structure of the model would change.
         """
-        edits = [(p, values.get(n, p.value)) for n, p in parameters.items() if p.kind == "spec"]
+        with self._lock:
+            return self._found(parameters, values)
+
+    def _found(self, parameters: Mapping[str, Parameter], values: Mapping[str, float]) -> mujoco.MjModel:
+        edits = [(p, values.get(n, p.value)) for n, p in list(parameters.items()) if p.kind == "spec"]
         functions = [(p, v) for p, v in edits if p.is_function]
         edits = functions + [(p, v) for p, v in edits if not p.is_function and v != p.value]
         if not edits:
@@ -204,6 +214,7 @@ class Geometry:
 
     def _tried(self, p: Parameter) -> Parameter:
         """Return the parameter with the entries that it touches, after a trial beside its value and at its bounds."""
+        self._models.clear()  # a declaration that failed may have used the name for another edit
         alone = {p.name: p}
         own = self.model(alone, {})
         if p.is_function:
@@ -243,7 +254,7 @@ def refuse_overlap(parameters: Mapping[str, Parameter], values: Mapping[str, flo
 
     At its own value a field parameter leaves the model as compiled, at others it overrides it: a jump.
     """
-    for spec in parameters.values():
+    for spec in list(parameters.values()):
         if spec.kind != "spec" or (spec.name not in free and values.get(spec.name, spec.value) == spec.value):
             continue
         for name in free:

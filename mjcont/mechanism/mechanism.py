@@ -10,7 +10,6 @@ parameter values: they are arguments of every method.
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -19,25 +18,25 @@ import mujoco
 import numpy as np
 
 from mjcont.errors import ParameterError, unknown_name
-from mjcont.mechanism import rigid
-from mjcont.mechanism.core import ENGINE, Core, copy_model, evaluation_copy, is_constrained, owned_copy, simulation_copy
+from mjcont.mechanism.core import ENGINE, copy_model, evaluation_copy, is_constrained, owned_copy
 from mjcont.mechanism.declarations import Declaration
 from mjcont.mechanism.geometry import Geometry, refuse_overlap
 from mjcont.mechanism.observables import Observed, model_observables
 from mjcont.mechanism.parameters import collect_parameters, declared_parameter
+from mjcont.mechanism.sharing import Shareable
 from mjcont.mechanism.summary import describe
-from mjcont.mechanism.writer import FieldWriter
+from mjcont.mechanism.zeromodes import whole as rigid
+from mjcont.mechanism.zeromodes.parts import Held
 from mjcont.models import features, loading
 from mjcont.models.actuators import bush_names
-from mjcont.models.mjcf import exact_text
 from mjcont.models.states import checked_state, coordinates_are_flat, keyframes, model_name, state_labels, state_scale
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.model import Model
-from mjcont.results.quantities import Parameter
+from mjcont.results.quantities import Parameter, told_apart
 from mjcont.results.text import ParameterTable
 
 
-class Mechanism(Observed, Model):
+class Mechanism(Shareable, Observed, Held, Model):
     """A MuJoCo model as an equilibrium problem f(q, p) = 0 with named parameters and observables.
 
     Use `Mechanism.from_xml`, `from_spec` or `from_model` to make one.
@@ -50,7 +49,7 @@ class Mechanism(Observed, Model):
     parameters : dict of str to Parameter
         Declared in the model, every control, gravity_angle and load_factor.
     observables : dict of str to Observable
-        Every sensor and joint position.
+        Every sensor and joint position. One that is called like a parameter is `joint:NAME` or `sensor:NAME`.
     declared : dict
         Parameters declared in Python or by path, as results store them.
     keyframes : dict of str to (nq,) array
@@ -65,7 +64,6 @@ class Mechanism(Observed, Model):
     second_order = True
     parameters: ParameterTable
     declared: dict[str, Any]
-    _core: Core
 
     def __init__(
         self,
@@ -86,12 +84,13 @@ class Mechanism(Observed, Model):
         self.state_scale = state_scale(model)
         geometry = geometry or Geometry(None)
         self.parameters = collect_parameters(evaluation_copy(copy_model(model)), geometry)
-        self.observables = model_observables(model)
+        self.observables = told_apart(model_observables(model), self.parameters)
         self.declared = {}
         self.keyframes = keyframes(model)
         self.constrained, self._passive = is_constrained(model), features.passive(model)
         self._held: tuple[str, ...] = ()
-        self._core = Core(model, self.parameters, geometry, self.constrained, self.state_scale, self.retract_each)
+        self._friction = friction
+        self._own(model, geometry)
 
     # -- making one ----------------------------------------------------------------------------------------
 
@@ -113,10 +112,9 @@ class Mechanism(Observed, Model):
 
     @classmethod
     def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
-        """Take an `MjSpec` (copied)."""
-        notes: list[str] = []
-        model = loading.compile_spec(spec, notes)
-        return cls(model, exact_text(spec), friction, notes, Geometry(spec.copy()))
+        """Take an `MjSpec` (copied), without what needs files that are not there."""
+        loaded = loading.load_spec(spec)
+        return cls(loaded.model, loaded.text, friction, loaded.notes, Geometry(loaded.spec))
 
     @classmethod
     def from_model(cls, model: mujoco.MjModel, *, friction: str = "frictionless") -> Mechanism:
@@ -148,20 +146,25 @@ class Mechanism(Observed, Model):
         ParameterError
             If the name is in use, a path matches nothing, or its targets disagree with each other in the loaded model.
         """
-        if name in self.parameters:
-            raise ParameterError(f"parameter '{name}' is declared twice")
-        given = Declaration(name, unit, bounds, tuple(paths), function, value)
-        parameter = declared_parameter(self._core.as_loaded(), self._core.geometry, given)
-        self.parameters[name] = parameter
-        self.declared[name] = given.record(parameter)
-        if parameter.kind == "spec":
-            self._core.relayout()
+        with self._cores.lock:
+            if name in self.parameters:
+                raise ParameterError(f"parameter '{name}' is declared twice")
+            given, core = Declaration(name, unit, bounds, tuple(paths), function, value), self._core
+            parameter = declared_parameter(core.as_loaded(), core.geometry, given)
+            self.parameters[name] = parameter
+            renamed = told_apart(self.observables, self.parameters)
+            self.observables.clear()
+            self.observables.update(renamed)
+            self.declared[name] = given.record(parameter)
+            if parameter.kind == "spec":
+                self._cores.relayout()
         return parameter
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`; a path such as `joint:hip.stiffness` is one, too."""
-        if ":" in name and name not in self.parameters:
-            self.declare(name, name)
+        with self._cores.lock:
+            if ":" in name and name not in self.parameters:
+                self.declare(name, name)
         return Model.parameter(self, name)
 
     def values(self, given: Values | None = None) -> dict[str, float]:
@@ -177,7 +180,7 @@ class Mechanism(Observed, Model):
         given = given or {}
         for name, value in given.items():
             self.parameter(name).check(value)
-        merged = {name: p.value for name, p in self.parameters.items()}
+        merged = {name: p.value for name, p in list(self.parameters.items())}
         merged.update({name: float(v) for name, v in given.items()})
         if any(self.parameters[name].kind == "spec" for name in given):
             self._core.geometry.model(self.parameters, merged)
@@ -187,13 +190,20 @@ class Mechanism(Observed, Model):
 
     def residual(self, x: Array, values: Values) -> Array:
         """Return the generalised forces M qacc at rest, (nv,), in N and N m."""
-        self._core.writer.write(self.parameters, values)
-        return self._core.evaluator.forces(x[None])[0].copy()
+        core = self._core
+        core.writer.write(self.parameters, values)
+        return core.evaluator.forces(x[None])[0].copy()
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return the residual at x moved by each row of `steps` (m, nv), shape (m, nv)."""
-        self._core.writer.write(self.parameters, values)
-        return self._core.evaluator.forces(self.retract_each(x, steps)).copy()
+        core = self._core
+        core.writer.write(self.parameters, values)
+        return core.evaluator.forces(self.retract_each(x, steps)).copy()
+
+    @property
+    def pieces(self) -> list[bytes]:
+        """On which smooth piece of the forces each row of the last evaluation lies; empty where they are smooth."""
+        return self._core.evaluator.sides
 
     def side_by_side(self, name: str) -> bool:
         """Whether states that differ in a parameter are evaluated in one batch: the forces are smooth, it a control."""
@@ -211,20 +221,23 @@ class Mechanism(Observed, Model):
 
     def acceleration(self, qpos: Array, qvel: Array, values: Values | None = None) -> Array:
         """Return qacc at a state of motion, (nv,), in m/s^2 and rad/s^2."""
-        self._core.writer.write(self.parameters, self.values(values))
-        return self._core.evaluator.accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
+        every = self.values(values)
+        core = self._core
+        core.writer.write(self.parameters, every)
+        return core.evaluator.accelerations(np.asarray(qpos)[None], np.asarray(qvel)[None])[0].copy()
 
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
     ) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
+        core = self._core
         refuse_overlap(self.parameters, values, tuple(wrt))
-        found = self._core.derivatives.linearize(x, values, wrt, accurate, ranges)
+        found = core.derivatives.linearize(x, values, wrt, accurate, ranges)
         if not self._held:
             return found
-        mass = self._core.evaluator.mass(x)
+        mass = core.evaluator.mass(x)
         held = rigid.rate(found.jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
-        return Linearization(found.f, found.jac - held, found.par)
+        return Linearization(found.f, found.jac - held, found.par, found.piece)
 
     def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""
@@ -232,17 +245,13 @@ class Mechanism(Observed, Model):
 
     def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
         """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
-        self._core.writer.write(self.parameters, values)
-        mass, damping = self._core.evaluator.mass(x), self._core.evaluator.damping(x, self.state_scale)
+        core = self._core
+        core.writer.write(self.parameters, values)
+        mass, damping = core.evaluator.mass(x), core.evaluator.damping(x, self.state_scale)
         if self._held:
             # critical damping: a held mode decays and can never look unstable or marginal
             damping = damping + 2.0 * rigid.rate(jac, mass) * rigid.holding(mass, self._held_directions(x))
         return Pencil(mass, damping, -jac)
-
-    @property
-    def nonsmooth(self) -> bool:
-        """Whether the forces are smooth in pieces only."""
-        return self._core.nonsmooth
 
     @property
     def passive(self) -> bool:
@@ -251,53 +260,26 @@ class Mechanism(Observed, Model):
 
     def pencils(self, states: Array, values: Sequence[Values], jacs: Sequence[Array]) -> list[Pencil]:
         """Return `pencil` at many equilibria of a passive mechanism."""
+        core = self._core
         loads = {n for n, p in self.parameters.items() if p.kind in ("control", "gravity")}
         first = values[0]
         if self._held or any(v[n] != first[n] for v in values for n in first.keys() - loads):
             return [self.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]
-        self._core.writer.write(self.parameters, first)
-        evaluator, scale = self._core.evaluator, self.state_scale
+        core.writer.write(self.parameters, first)
+        evaluator, scale = core.evaluator, self.state_scale
         return [Pencil(evaluator.mass(x), evaluator.damping(x, scale), -j) for x, j in zip(states, jacs, strict=True)]
 
     def first_order(self, x: Array, values: Values, steps: Array) -> Array:
         """Return (v, qacc) at steps (m, 2 nv) of position and velocity around rest at x, shape (m, 2 nv)."""
-        self._core.writer.write(self.parameters, values)
+        core = self._core
+        core.writer.write(self.parameters, values)
         velocity = steps[:, self.n :]
         moved = self.retract_each(x, steps[:, : self.n])
-        return np.hstack([velocity, self._core.evaluator.accelerations(moved, velocity)])
+        return np.hstack([velocity, core.evaluator.accelerations(moved, velocity)])
 
     def periods(self, x: Array, values: Values) -> Array:
         """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
         return rigid.full_turns(self, x, values)
-
-    # -- rigid-body zero modes -------------------------------------------------------------------------------
-
-    def rigid_modes(self, x: Array, values: Values, among: Sequence[str] | None = None) -> tuple[str, ...]:
-        """Return the names of the rigid-body motions that no force opposes near a state, of all or `among` some."""
-        return rigid.zero_modes(self.holding(()), self._core.model, self._core.evaluator.position, x, values, among)
-
-    @property
-    def held(self) -> tuple[str, ...]:
-        """The rigid-body modes that are held."""
-        return self._held
-
-    def rigid_directions(self, x: Array) -> dict[str, Array]:
-        """Return the tangent vectors (nv,) along the held rigid-body modes, by name."""
-        return rigid.directions(self._core.model, self._core.evaluator.position(x), self._held)
-
-    def holding(self, modes: Sequence[str]) -> Mechanism:
-        """Return this mechanism with rigid-body modes held by a stiffness and damping of their own."""
-        held = copy.copy(self)
-        held._held = tuple(modes)
-        return held
-
-    def admissible(self, x: Array, step: Array) -> Array:
-        """Return a tangent step without its part along held rigid-body modes, which nothing else would correct."""
-        return rigid.without_modes(step, self._core.evaluator.mass(x), self._held_directions(x)) if self._held else step
-
-    def _held_directions(self, x: Array) -> Array:
-        found = list(self.rigid_directions(x).values())
-        return np.column_stack(found) if found else np.zeros((self.n, 0))
 
     # -- the manifold ----------------------------------------------------------------------------------------
 
@@ -335,28 +317,11 @@ class Mechanism(Observed, Model):
 
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""
-        self._core.writer.write(self.parameters, values)
-        return self._core.evaluator.active(x)
-
-    @property
-    def failure(self) -> str:
-        """Why the model does not compile at the values evaluated last; empty where it does."""
-        return self._core.writer.failure or self._core.derivatives.failure
-
-    @property
-    def evaluations(self) -> int:
-        """Forward evaluations so far; every row of a batch counts as one."""
-        return self._core.evaluator.count
+        core = self._core
+        core.writer.write(self.parameters, values)
+        return core.evaluator.active(x)
 
     # -- states ----------------------------------------------------------------------------------------------
-
-    def simulation_model(self) -> mujoco.MjModel:
-        """Return a copy of the model as loaded, for time histories; diverging motion is not reset silently."""
-        return simulation_copy(self._core.loaded)
-
-    def writer(self, model: mujoco.MjModel) -> FieldWriter:
-        """Return what writes parameter values into a copy of the model."""
-        return self._core.writer_of(model)
 
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return a start: the state given, or a keyframe's, or qpos0.

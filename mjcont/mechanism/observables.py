@@ -20,7 +20,7 @@ from mjcont.mechanism.declarations import declarations
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.models.quiet import quiet, quiet_data
 from mjcont.numerics.equations.problem import Array, Values
-from mjcont.results.quantities import Observable, Parameter
+from mjcont.results.quantities import Observable, Parameter, column_of, own_observable
 
 _SENSOR = mujoco.mjtSensor
 # rows of a batch, and the number of states from which on it pays
@@ -38,9 +38,9 @@ _UNITS = {
 }
 
 
-def _entry(name: str, unit: str, field: str, index: int) -> Observable:
+def _entry(name: str, unit: str, field: str, index: int, of: str) -> Observable:
     """Return the observable that is an entry of a field of MuJoCo's data."""
-    return Observable(name, unit, lambda model, data: float(getattr(data, field)[index]), (field, index))
+    return Observable(name, unit, lambda model, data: float(getattr(data, field)[index]), (field, index), of)
 
 
 def joint_unit(model: mujoco.MjModel, joint: int) -> str:
@@ -88,7 +88,7 @@ def model_observables(model: mujoco.MjModel) -> dict[str, Observable]:
         unit, start, size = sensor_unit(model, s), int(model.sensor_adr[s]), int(model.sensor_dim[s])
         for k in range(size):
             label = name if size == 1 else f"{name}[{k}]"
-            found[label] = _entry(label, unit, "sensordata", start + k)
+            found[label] = _entry(label, unit, "sensordata", start + k, "sensor")
     aliases: dict[str, Observable] = {}
     for declaration in declarations(model):
         source = declaration.paths[0]
@@ -103,7 +103,7 @@ def model_observables(model: mujoco.MjModel) -> dict[str, Observable]:
         if mujoco.mjtJoint(model.jnt_type[j]) in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE):
             name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_JOINT, j) or f"joint{j}"
             if name not in found:
-                found[name] = _entry(name, joint_unit(model, j), "qpos", int(model.jnt_qposadr[j]))
+                found[name] = _entry(name, joint_unit(model, j), "qpos", int(model.jnt_qposadr[j]), "joint")
     return found
 
 
@@ -179,17 +179,28 @@ class Observed:
     """
 
     observables: dict[str, Observable]
-    _core: _Reading
+    parameters: Any
+
+    @property
+    def _core(self) -> _Reading:
+        raise NotImplementedError
 
     def observe(self, name: str, function: Callable[[Any, Any], float], unit: str = "") -> None:
-        """Add an observable computed by `function(model, data)` from MuJoCo's model and data."""
-        self.observables[name] = Observable(name, unit, function)
+        """Add an observable computed by `function(model, data)` from MuJoCo's model and data.
+
+        Raises
+        ------
+        ParameterError
+            If a parameter has this name.
+        """
+        self.observables[name] = own_observable(name, unit, function, self.parameters)
 
     def observable(self, name: str) -> Observable:
-        """Return the observable called `name`."""
-        if name not in self.observables:
+        """Return the observable called `name`; a parameter may have the same name (see `told_apart`)."""
+        own = column_of(name, self.observables)
+        if own is None:
             raise unknown_name("observable", name, self.observables)
-        return self.observables[name]
+        return self.observables[own]
 
     def measure(
         self,

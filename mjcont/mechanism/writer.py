@@ -76,26 +76,26 @@ class FieldWriter:
         self._groups: dict[str, tuple[str, ...]] = {}
         self._grouped = 0
         self._alone: dict[str, bool] = {}
+        self._torn = False  # whether an interrupt came half-way: everything is written anew next time
 
     def write(self, parameters: Mapping[str, Parameter], values: Mapping[str, float]) -> None:
         """Make the model have `values`; names that are left out have the model's own."""
-        if len(parameters) == self._known and self._last is not None and self._moves_a_control(parameters, values):
+        known = len(parameters) == self._known and self._last is not None and not self._torn
+        if known and self._moves_a_control(parameters, values):
             return
         if not values.keys() <= parameters.keys():
             raise unknown_name("parameter", next(n for n in values if n not in parameters), parameters)
         written = self._written
-        new = {n: values.get(n, p.value) for n, p in parameters.items()}
+        new = {n: values.get(n, p.value) for n, p in list(parameters.items())}  # others may declare meanwhile
         if not self._rebase(parameters, new):
             return
-        changed = [n for n, v in new.items() if written.get(n, parameters[n].value) != v]
+        changed = [n for n, v in new.items() if self._torn or written.get(n, parameters[n].value) != v]
         if not changed:
             return
-        try:
-            self._rewrite(parameters, changed, new)
-        except BaseException:  # an interrupt half-way: everything is written anew next time
-            self._forget()
-            raise
+        self._torn = True
+        self._rewrite(parameters, changed, new)
         self._last = dict(values)
+        self._torn = False
 
     def _moves_a_control(self, parameters: Mapping[str, Parameter], values: Mapping[str, float]) -> bool:
         """Do the least where nothing has changed, or one control that is alone; return whether that was it."""
@@ -111,13 +111,15 @@ class FieldWriter:
         name = changed[0]
         if not self.alone(parameters, name):
             return False
+        self._torn = True
         last[name] = self._written[name] = value = values[name]
         parameter = parameters[name]
         if value == parameter.value:
             self._restore(parameter)
-            return True
-        for target in parameter.targets:
-            self.inputs.write("ctrl", list(target.index), target.entry(value))
+        else:
+            for target in parameter.targets:
+                self.inputs.write("ctrl", list(target.index), target.entry(value))
+        self._torn = False
         return True
 
     def alone(self, parameters: Mapping[str, Parameter], name: str) -> bool:
@@ -145,7 +147,7 @@ class FieldWriter:
 
     def _rebase(self, parameters: Mapping[str, Parameter], new: Mapping[str, float]) -> bool:
         """Give the model the geometry that the spec compiles to; return whether it does compile."""
-        wanted = {n: new[n] for n, p in parameters.items() if p.kind == "spec"}
+        wanted = {n: v for n, v in new.items() if parameters[n].kind == "spec"}
         if self._known != len(parameters):
             self._known, self._alone = len(parameters), {}
         if wanted == self._base:
@@ -191,11 +193,11 @@ class FieldWriter:
         if name not in self._groups:
             entries, group, grown = set(parameters[name].entries), {name}, True
             while grown:
-                new = {n for n, p in parameters.items() if n not in group and not entries.isdisjoint(p.entries)}
+                new = {n for n, p in list(parameters.items()) if n not in group and not entries.isdisjoint(p.entries)}
                 entries |= {e for n in new for e in parameters[n].entries}
                 group |= new
                 grown = bool(new)
-            self._groups[name] = tuple(n for n in parameters if n in group)
+            self._groups[name] = tuple(n for n in list(parameters) if n in group)
         return self._groups[name]
 
     def _restore(self, parameter: Parameter) -> None:

@@ -50,6 +50,13 @@ def drop_missing(spec: mujoco.MjSpec, folder: Path) -> tuple[str, ...]:
     return tuple(notes)
 
 
+def files(spec: mujoco.MjSpec, folder: Path) -> list[Path]:
+    """Return the files of a spec's meshes, height fields, skins and textures, where they are looked up."""
+    elements = [(e, "meshdir") for e in (*spec.meshes, *spec.hfields, *spec.skins)]
+    elements += [(e, "texturedir") for e in spec.textures]
+    return [place.resolve() for e, directory in elements for place in _places(spec, e, folder, directory).values()]
+
+
 def anchor_files(spec: mujoco.MjSpec, folder: Path) -> bool:
     """Make the paths to a spec's files absolute, so that its text is understood anywhere; whether there are any."""
     elements = [(e, "meshdir") for e in (*spec.meshes, *spec.hfields, *spec.skins)]

@@ -17,8 +17,8 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 
-from mjcont.errors import ModelError, ParameterError, unknown_name
-from mjcont.models import loading
+from mjcont.errors import ModelError, ModelWarning, ParameterError, unknown_name
+from mjcont.models import assets, loading
 from mjcont.models.bushsections import (
     BUSH_CLASS,
     SLIDE_CLASS,
@@ -32,8 +32,8 @@ from mjcont.models.bushsections import (
 )
 from mjcont.models.equalities import equality_name, springs_of
 from mjcont.models.impedance import impedance
-from mjcont.models.mjcf import Document, Element, elements, exact_text, numbers
-from mjcont.models.quiet import heard, quiet_data
+from mjcont.models.mjcf import Document, Element, elements, exact_text, included, numbers
+from mjcont.models.quiet import quiet_data
 from mjcont.models.states import keyframes
 from mjcont.models.topology import Closure, Frame, constraint_closures, gap, plane_normal
 
@@ -63,7 +63,8 @@ def add_bushes(
 ) -> mujoco.MjSpec:
     """Replace rigid pins by elastic ones and return the new model's spec; see `bushed_xml`."""
     text = bushed_xml(model, joints, connects, stiffness, damping, frame)
-    return loading.parse(text, _source(model)[1], "with bushes")
+    spec, notes = loading.parse_present(text, _source(model)[1], "with bushes")
+    return _noted(spec, notes)
 
 
 def bushed_xml(
@@ -95,21 +96,21 @@ def bushed_xml(
     Returns
     -------
     str
-        The MJCF, with parameters k_bush and c_bush (k_turn and c_turn for welds).
+        The MJCF, with parameters k_bush and c_bush (k_turn and c_turn for welds). What names files that are not
+        there stays in it as it is written.
 
     Raises
     ------
     MjcontError
         For a name that the model has not, a joint or constraint that cannot be replaced, a bad option. A constraint
-        that is open at qpos0 or at a keyframe gives a UserWarning.
+        that is open at qpos0 or at a keyframe gives a UserWarning, a file that is not there a ModelWarning.
     """
     if frame not in FRAMES:
         raise unknown_name("frame", frame, FRAMES)
     if not (math.isfinite(stiffness) and stiffness > 0 and (damping is None or 0 <= damping < math.inf)):
         raise ParameterError("the bushes' stiffness must be a positive number, their damping not negative")
     text, folder = _source(model)
-    spec = loading.parse(text, folder, "to be given bushes")
-    compiled = loading.compile_spec(spec)
+    spec, compiled, _ = _present(text, folder, "to be given bushes")
     pins = [_joint(compiled, name) for name in joints or ()]
     closures = _chosen(compiled, connects)
     if not pins and not closures:
@@ -153,9 +154,7 @@ def set_constraint_stiffness(
     """
     if not (math.isfinite(stiffness) and stiffness > 0 and 0 <= damping_ratio < math.inf):
         raise ParameterError("a constraint's stiffness must be a positive number, its damping ratio not negative")
-    text, folder = _source(model)
-    spec = loading.parse(text, folder, "to be given stiffness")
-    compiled = loading.compile_spec(spec)
+    spec, compiled, notes = _present(*_source(model), "to be given stiffness")
     names = {equality_name(compiled, e): e for e in range(compiled.neq)}
     if equalities is None:
         equalities = [c.name for c in constraint_closures(compiled)]
@@ -172,22 +171,34 @@ def set_constraint_stiffness(
         element = spec.equalities[names[name]]
         element.solref = [-direct, -2.0 * damping_ratio * math.sqrt(direct)]
         element.solimp = [d, d, *springs[0].solimp[2:]]
-    return spec
+    return _noted(spec, notes)
 
 
 def _source(model: str | Path | mujoco.MjSpec) -> tuple[str, Path | None]:
-    """Return a model's text, whole where it is spread over files, and its folder."""
+    """Return a model's text, with the texts that it includes in their places, and its folder."""
     if not isinstance(model, mujoco.MjSpec):
         text, folder = loading.read_source(model)
-        if folder is None or "<include" not in text:
-            return text, folder
-        try:
-            with heard():
-                return exact_text(mujoco.MjSpec.from_file(str(model))), folder
-        except (ValueError, mujoco.FatalError) as error:
-            raise ModelError(f"model '{model}': MuJoCo rejects it: {' '.join(str(error).split())}") from error
-    folder = Path(model.modelfiledir) if model.modelfiledir else None
-    return exact_text(model), folder
+        return (included(text, folder) if folder is not None else text), folder
+    folder, spec = Path(model.modelfiledir) if model.modelfiledir else None, model.copy()
+    assets.drop_missing(spec, (folder or Path()).resolve())
+    return exact_text(spec), folder
+
+
+def _present(
+    text: str, folder: Path | None, label: str
+) -> tuple[mujoco.MjSpec, mujoco.MjModel, tuple[str, ...]]:
+    """Return the spec of a text without what needs missing files, compiled, and what is missing, of which it warns."""
+    spec, notes = loading.parse_present(text, folder, label)
+    compiled = loading.compile_spec(spec)
+    for note in notes:
+        warnings.warn(note, ModelWarning, stacklevel=3)
+    return spec, compiled, notes
+
+
+def _noted(spec: mujoco.MjSpec, notes: Sequence[str]) -> mujoco.MjSpec:
+    """Return a spec that keeps notes beside those that it has."""
+    assets.write_notes(spec, [*assets.read_notes(spec), *notes])
+    return spec
 
 
 # -- what to replace --------------------------------------------------------------------------------------------
@@ -287,7 +298,7 @@ def _edit(
     if not any(o.get("integrator") for o in document.sections("option")):
         document.section("option", before="worldbody").set("integrator", "discrete")
     rewrite_keys(document, folder, model, made)
-    declare(document, loading.compile_spec(loading.parse(str(document), folder, "with bushes")), made)
+    declare(document, loading.compile_spec(loading.parse_present(str(document), folder, "with bushes")[0]), made)
     return document
 
 

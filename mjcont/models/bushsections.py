@@ -75,7 +75,7 @@ def rewrite_keys(document: Document, folder: Path | None, model: mujoco.MjModel,
     """Give every keyframe zeros for the new slides and controls; a stale one compiles onto the wrong joints."""
     keys = [k for section in document.sections("keyframe") for k in section.findall("key")]
     stated = [(k.attrib.pop("qpos", None), k.attrib.pop("ctrl", None)) for k in keys]
-    new = loading.compile_spec(loading.parse(str(document), folder, "with bushes"))
+    new = loading.compile_spec(loading.parse_present(str(document), folder, "with bushes")[0])
     kept = [j for j in range(new.njnt) if new.joint(j).name not in made.slides]
     ends = [*model.jnt_qposadr, model.nq]
     for key, (qpos, ctrl) in zip(keys, stated, strict=True):

@@ -12,6 +12,7 @@ import numpy as np
 from mjcont.errors import ModelError, ModelWarning, ParameterError
 from mjcont.models.actuators import actuator_name, follower, integrator
 from mjcont.models.numbers import refuse_invalid
+from mjcont.models.sources import MOST_FREEDOMS
 from mjcont.models.states import element_name
 from mjcont.results.quantities import FRICTION
 
@@ -25,6 +26,11 @@ def refuse_unsupported(model: mujoco.MjModel) -> None:
     if model.nv == 0:
         raise ModelError("the model has no degree of freedom, so nothing in it can find a place to rest: add a joint")
     refuse_invalid(model)
+    if model.nv > MOST_FREEDOMS:
+        raise ModelError(
+            f"the model has {model.nv} degrees of freedom: mjcont keeps matrices of that size in full, "
+            f"{8e-9 * model.nv**2:.1f} GB each, and takes at most {MOST_FREEDOMS}"
+        )
     if model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP:
         raise ModelError('sleeping bodies make equilibria path dependent: remove <flag sleep="enable"/>')
     if np.any(model.jnt_springyield > 0) or np.any(model.tendon_springyield > 0):
@@ -71,15 +77,35 @@ def passive(model: mujoco.MjModel) -> bool:
     """
     dampers = (model.dof_damping, model.tendon_damping, model.actuator_damping)
     plain = np.all(model.actuator_gaintype == int(mujoco.mjtGain.mjGAIN_FIXED)) and not model.na
-    affine = model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_AFFINE)
     none = model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_NONE)
-    resisting = np.all(none | (affine & (model.actuator_biasprm[:, 2] <= 0)))
+    resisting = np.all(none | (_affine_bias(model) & (model.actuator_biasprm[:, 2] <= 0)))
+    return bool(plain and resisting and explicit_damping(model) and all(np.all(d >= 0) for d in dampers))
+
+
+def _affine_bias(model: mujoco.MjModel) -> np.ndarray:
+    return model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_AFFINE)
+
+
+def explicit_damping(model: mujoco.MjModel) -> bool:
+    """Whether the resistance to velocities at rest is known in closed form (see `dampers`)."""
+    gains = [int(g) for g in (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtGain.mjGAIN_AFFINE, mujoco.mjtGain.mjGAIN_MUSCLE)]
+    laws = [int(b) for b in (mujoco.mjtBias.mjBIAS_NONE, mujoco.mjtBias.mjBIAS_AFFINE, mujoco.mjtBias.mjBIAS_MUSCLE)]
+    known = np.all(np.isin(model.actuator_gaintype, gains)) and np.all(np.isin(model.actuator_biastype, laws))
     elsewhere = model.opt.density or model.opt.viscosity or model.nplugin or model.nflex
-    polynomials = (model.dof_dampingpoly, model.tendon_dampingpoly, model.actuator_dampingpoly)
-    return bool(
-        plain and resisting and not elsewhere
-        and all(np.all(d >= 0) for d in dampers) and not any(p.any() for p in polynomials)
-    )
+    return bool(known and not elsewhere and np.all(model.actuator_outnum == 1) and not _polynomials(model))
+
+
+def linear_in_velocity(model: mujoco.MjModel) -> bool:
+    """Whether forces are linear in velocity on each smooth piece, so that steps of unit speed are exact."""
+    linear = [int(g) for g in (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtGain.mjGAIN_AFFINE)]
+    laws = _affine_bias(model) | (model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_NONE))
+    straight = np.all(np.isin(model.actuator_gaintype, linear)) and np.all(laws)
+    return bool(straight and not (model.opt.density or model.nplugin or _polynomials(model)))
+
+
+def _polynomials(model: mujoco.MjModel) -> bool:
+    """Whether a damper has higher powers of the velocity."""
+    return any(p.any() for p in (model.dof_dampingpoly, model.tendon_dampingpoly, model.actuator_dampingpoly))
 
 
 def friction_notes(model: mujoco.MjModel, friction: str) -> list[str]:

@@ -10,11 +10,13 @@ from typing import NamedTuple
 import mujoco
 
 from mjcont.errors import ModelError
-from mjcont.models import assets
+from mjcont.models import assets, sources
 from mjcont.models.mjcf import exact_text
 from mjcont.models.quiet import heard
 
 _OTHER_FILES = re.compile(r"<(include|model)\b")
+_NEEDS_FILES = re.compile(r"\bfile\w*\s*=")
+_REFUSED = (ValueError, RuntimeError, MemoryError, mujoco.FatalError)  # what MuJoCo raises on models
 
 
 class Loaded(NamedTuple):
@@ -50,6 +52,7 @@ def located(source: str | Path) -> Path:
 def read_source(source: str | Path) -> tuple[str, Path | None]:
     """Return the XML text of a path, of a shipped model's name, or of text itself, and its folder."""
     if isinstance(source, str) and source.lstrip().startswith("<"):
+        sources.look_at(source, None, "XML text")
         return source, None
     path = located(source)
     if not path.is_file():
@@ -57,9 +60,18 @@ def read_source(source: str | Path) -> tuple[str, Path | None]:
         what = "is a folder, not a file" if Path(source).is_dir() else "no such file"
         raise ModelError(f"model '{source}': {what}. Models that ship with mjcont: {shipped}.")
     try:
-        return path.read_text(encoding="utf-8"), path.resolve().parent
+        text, folder = path.read_text(encoding="utf-8"), path.resolve().parent
     except (UnicodeDecodeError, OSError) as error:
         raise ModelError(f"model '{source}' cannot be read as text: {error}") from error
+    sources.look_at(text, folder, str(path))
+    try:
+        str(folder).encode()
+    except UnicodeEncodeError as error:
+        if _NEEDS_FILES.search(text):
+            raise ModelError(f"model '{source}': MuJoCo reads further files in folders whose names are UTF-8 only: "
+                             "move the model") from error
+        return text, None
+    return text, folder
 
 
 def parse(text: str, folder: Path | None, label: str) -> mujoco.MjSpec:
@@ -69,7 +81,7 @@ def parse(text: str, folder: Path | None, label: str) -> mujoco.MjSpec:
             if folder is not None and _OTHER_FILES.search(text):
                 return mujoco.MjSpec.from_file(label)
             spec = mujoco.MjSpec.from_string(text)
-    except (ValueError, mujoco.FatalError) as error:
+    except _REFUSED as error:
         raise ModelError(f"model {label}: MuJoCo rejects it: {_one_line(error)}") from error
     if folder is not None:
         spec.modelfiledir = str(folder)
@@ -82,11 +94,30 @@ def compile_spec(spec: mujoco.MjSpec, notes: list[str] | None = None) -> mujoco.
     try:
         with heard() as told:
             return spec.compile()
-    except (ValueError, mujoco.FatalError) as error:
+    except _REFUSED as error:
         raise ModelError(f"model '{spec.modelname}': MuJoCo cannot compile it: {_one_line(error)}") from error
     finally:
         if notes is not None:
             notes += (f"MuJoCo: {message}" for message in told)
+
+
+def parse_present(text: str, folder: Path | None, label: str) -> tuple[mujoco.MjSpec, tuple[str, ...]]:
+    """Return the spec of an XML text without what needs missing files, and what that means, a sentence each."""
+    spec = parse(text, folder, label)
+    return spec, assets.drop_missing(spec, (folder or Path()).resolve())
+
+
+def files_read(source: str | Path) -> list[str]:
+    """Return the files that a source reads, itself first, each with what is wrong with it, if anything."""
+    text, folder = read_source(source)
+    if folder is None:
+        return []
+    path = located(source)
+    spec = parse(text, folder, str(path))
+    included = sources.look_at(text, folder, str(path)) if _OTHER_FILES.search(text) else ()
+    files = dict.fromkeys([path.resolve(), *included, *assets.files(spec, folder)])
+    shown = [f.relative_to(folder) if f.is_relative_to(folder) else f for f in files]
+    return [str(name) + ("" if file.is_file() else ": not there") for name, file in zip(shown, files, strict=True)]
 
 
 def load(source: str | Path) -> Loaded:
@@ -108,6 +139,18 @@ def load(source: str | Path) -> Loaded:
         spec, place = parse(text, None, "with everything it includes"), Path()
         model = compile_spec(spec)
     return Loaded(model, text, notes, spec, place if folder is not None and not rewritten else None)
+
+
+def load_spec(spec: mujoco.MjSpec) -> Loaded:
+    """Return what `load` does, of a copy of a spec."""
+    own = spec.copy()
+    own.modelfiledir = spec.modelfiledir
+    dropped, told = assets.drop_missing(own, Path(spec.modelfiledir or ".").resolve()), list[str]()
+    model = compile_spec(own, told)
+    notes = tuple(dict.fromkeys((*assets.read_notes(own), *dropped, *told)))
+    if dropped:
+        assets.write_notes(own, notes)
+    return Loaded(model, exact_text(own), notes, own.copy(), None)
 
 
 def _one_line(error: Warning | Exception | str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import threading
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ import numpy as np
 from mjcont.models.quiet import heard
 
 _DIGITS = 17
+_PRECISION = threading.Lock()  # the number of digits is one for all threads
 
 Element = ElementTree.Element  # a comment is one whose tag is a function
 
@@ -23,7 +25,7 @@ def exact_text(spec: mujoco.MjSpec) -> str:
     library = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob("libmujoco*"), "")) or None)
     setter = getattr(library, "_mjPRIVATE__set_xml_precision", None)
     getter = getattr(library, "_mjPRIVATE__get_xml_precision", None)
-    with heard():
+    with heard(), _PRECISION:
         spec.compile()
         if setter is None or getter is None:
             return str(spec.to_xml())
@@ -128,6 +130,33 @@ class Document:
         parent.remove(child)
         if parent is not self.root and not elements(parent):
             self.remove(parent)
+
+
+def included(text: str, folder: Path) -> str:
+    """Return a text with those that it includes in their places; what cannot be read is left to MuJoCo to say."""
+    if "<include" not in text:
+        return text
+    try:
+        document = Document(text)
+        while (change := _insert_included(document, folder)) is not None:
+            document = change
+    except (ElementTree.ParseError, OSError, UnicodeDecodeError):
+        return text
+    return str(document)
+
+
+def _insert_included(document: Document, folder: Path) -> Document | None:
+    """Put the children of one included text in the place of its <include>; None if there is none left."""
+    parents = document.parents()
+    found = next((e for e in document.root.iter("include") if e.get("file")), None)
+    if found is None:
+        return None
+    parent, children = parents[found], list(Document((folder / str(found.get("file"))).read_text("utf-8")).root)
+    index = list(parent).index(found)
+    parent.remove(found)
+    for k, child in enumerate(children):
+        document.insert(parent, child, index + k)
+    return document
 
 
 def is_element(item: Any) -> bool:

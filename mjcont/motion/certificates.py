@@ -15,6 +15,7 @@ import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import mujoco
 import numpy as np
@@ -111,11 +112,11 @@ def verify_stability(
     mechanism, _ = hold_rigid_modes(branch.problem, first.state, first.parameters)
     probes, checks = [], []
     for row in rows:
-        probe = _probe(mechanism, branch, row, amplitude, resolution, max_steps)
-        if isinstance(probe, str):
-            checks.append(_check(branch, row, math.nan, 0.0, UNRESOLVED, probe))
+        found = _probe(mechanism, branch, row, amplitude, resolution, max_steps)
+        if isinstance(found, Check):
+            checks.append(found)
         else:
-            probes.append(probe)
+            probes.append(found)
     with quiet:
         for group in _groups(probes):
             rates = _measure(mechanism, group, nthread or os.cpu_count() or 1)
@@ -136,8 +137,8 @@ def _rows(branch: Branch, n: int, given: Sequence[int] | None) -> Sequence[int]:
 
 
 def _critical(branch: Branch, row: int) -> complex:
-    eigenvalues = branch.eigenvalues[row]
-    return complex(eigenvalues[np.nanargmax(eigenvalues.real)])
+    eigenvalues = branch.spectra.row(row)
+    return complex(eigenvalues[np.argmax(eigenvalues.real)])
 
 
 def _check(branch: Branch, row: int, rate: float, time: float, verdict: str, sentence: str) -> Check:
@@ -148,12 +149,13 @@ def _check(branch: Branch, row: int, rate: float, time: float, verdict: str, sen
 
 def _probe(
     mechanism: Mechanism, branch: Branch, row: int, amplitude: float, resolution: float, max_steps: int
-) -> _Probe | str:
-    """Return how to test a row, or why it cannot be."""
+) -> _Probe | Check:
+    """Return how to test a row, or the check of one that cannot be tested: unresolved, and why."""
+    unresolved = partial(_check, branch, row, math.nan, 0.0, UNRESOLVED)
     if branch.stability[row] == "marginal":
-        return "classified as marginal: the eigenvalue is on the axis within its noise"
+        return unresolved("classified as marginal: the eigenvalue is on the axis within its noise")
     if branch.labels[row].startswith("CO"):
-        return "a corner: a limit or contact begins or ceases to carry load here"
+        return unresolved("a corner: a limit or contact begins or ceases to carry load here")
     point, stored = branch.row(row), _critical(branch, row)
     values, x = mechanism.values(point.parameters), point.state
     pencil = mechanism.pencil(x, values, mechanism.linearize(x, values, (), accurate=True).jac)
@@ -161,12 +163,12 @@ def _probe(
     found = quadratic_eigenvalues(pencil.mass, pencil.damping, pencil.stiffness)
     s = complex(found[np.argmin(np.abs(found - stored))])
     if s.imag == 0.0 and stored.real == 0.0:
-        return "the critical eigenvalue is zero"
+        return unresolved("the critical eigenvalue is zero")
     fastest = float(np.abs(found).max())
     step = min(_FASTEST / fastest, _accurate_step(stored))
     time = min(_E_FOLDS / abs(stored.real), step * max_steps)
     if abs(stored.real) * time < resolution:
-        return (
+        return unresolved(
             f"marginal in {time:.3g} s, the time that {max_steps} steps reach: |Re s| x time = "
             f"{abs(stored.real) * time:.1e}, below {resolution:g}"
         )
@@ -185,7 +187,7 @@ def _probe(
         if _one_piece(mechanism, model, writer.inputs, x, q, s):
             v = (s * q).real
             return _Probe(row, model, writer.inputs.copies(), x, pencil, s, left, q.real, v, time / count, count)
-    return "a limit or contact begins or ceases to carry load beside the point: its motions are not linear"
+    return unresolved("a limit or contact begins or ceases to carry load beside the point: its motions are not linear")
 
 
 def _one_piece(mechanism: Mechanism, model: mujoco.MjModel, inputs: DataInputs, x: Array, q: Array, s: complex) -> bool:

@@ -17,6 +17,7 @@ from scipy.integrate import solve_ivp
 
 from mjcont.curves.collect import make_point
 from mjcont.models.quiet import quiet
+from mjcont.numerics.equations.clock import check
 from mjcont.numerics.equations.newton import solve
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.system import System
@@ -149,6 +150,7 @@ def escape(
     limit = _limit(problem, x)
     try:
         while motion.time < max_time:
+            check()
             states, speed = motion.advance()
             far = np.abs(motion.x[: problem.n] / problem.state_scale).max()
             if not far < limit:

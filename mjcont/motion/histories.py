@@ -261,7 +261,7 @@ def _status(outcome: _Outcome, plan: _Plan, last: float) -> tuple[str, str]:
 
 
 def _history(mechanism: Mechanism, case: Case, outcome: _Outcome, plan: _Plan, controlled: bool) -> History:
-    from mjcont.results.provenance import provenance
+    from mjcont.results.model import provenance
 
     track, grid = outcome.track, outcome.grid
     states, velocities = np.array(track.states), np.array(track.velocities)

@@ -15,7 +15,7 @@ from mjcont.numerics.equations.differences import CENTRED, PARAMETER, kept_withi
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.branch import Branch
 from mjcont.results.model import Model
-from mjcont.results.points import Column, special_from_row
+from mjcont.results.points import Column
 from mjcont.results.quantities import Parameter
 
 FRACTION = "leg"
@@ -49,6 +49,11 @@ class Leg(Model):
     def nonsmooth(self) -> bool:
         """Whether the model is smooth in pieces only."""
         return self.problem.nonsmooth
+
+    @property
+    def pieces(self) -> Sequence[bytes]:
+        """On which smooth piece of f each row of the last evaluation lies."""
+        return self.problem.pieces
 
     @property
     def failure(self) -> str:
@@ -130,7 +135,7 @@ class Leg(Model):
         if FRACTION not in wrt:
             return lin
         slope = lin.par @ np.array([self.last[n] - self.first[n] for n in names])
-        return Linearization(lin.f, lin.jac, slope[:, None])
+        return Linearization(lin.f, lin.jac, slope[:, None], lin.piece)
 
     def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""
@@ -175,20 +180,10 @@ def unwrapped(branch: Branch) -> Branch:
         n: Column(n, leg.problem.parameter(n).unit, "parameter", np.array([v[n] for v in values])) for n in leg.first
     }
     columns |= {n: c for n, c in branch.columns.items() if n != FRACTION}
-    plain = replace(
+    return replace(
         branch,
         columns=columns,
         free={n: tuple(sorted((leg.first[n], leg.last[n]))) for n in leg.first},  # type: ignore[misc]
         fixed={n: v for n, v in branch.fixed.items() if n not in leg.first},
         problem=leg.problem,
-        special_points=(),
     )
-    points = [
-        special_from_row(
-            plain.row(p.index), kind=p.kind, label=p.label, index=p.index, tolerance=p.tolerance,
-            converged=p.converged, coefficients=p.coefficients, vectors=p.vectors, note=p.note, free=plain.free,
-        )
-        for p in branch.special_points
-    ]
-    object.__setattr__(plain, "special_points", tuple(points))
-    return plain

@@ -20,6 +20,7 @@ from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.mechanism.energy import potential_energy, without_potential
 from mjcont.motion.escape import Landing, escape
 from mjcont.motion.legs import FRACTION, Leg, unwrapped
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.algebra import eigenvectors, singular, solve
 from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.free import Free
@@ -196,7 +197,14 @@ class _Follower:
     stepped: int = 0
 
     def run(self, first: Point, vertices: Sequence[Values]) -> tuple[str, str]:
-        """Follow all legs; return status and sentence."""
+        """Follow all legs, as far as the time allows; return status and sentence."""
+        try:
+            with clock.limited(self.settings.max_seconds):
+                return self._legs(first, vertices)
+        except clock.TimeUp:
+            return "max time", f"the limit of {self.settings.max_seconds:g} s was reached"
+
+    def _legs(self, first: Point, vertices: Sequence[Values]) -> tuple[str, str]:
         at, rows = first, 0
         for leg, target in enumerate(vertices[1:]):
             while any(target[n] != at.parameters[n] for n in target):
@@ -299,7 +307,7 @@ def _cut(branch: Branch, forward: int, target: float, name: str) -> tuple[Branch
     special = {p.index: p for p in branch.special_points}
     if status == "at special point":
         last = len(order) - 1
-    elif status in ("stopped", "at bound"):
+    elif status in ("stopped", "at bound", "breaks off"):
         corners = [k for k, i in enumerate(order) if i in special and special[int(i)].kind in ("CO", "BP")]
         calm = [k for k, i in enumerate(order) if branch.n_unstable[i] == 0]
         last = corners[-1] if corners and corners[-1] >= len(order) - 2 else max(calm[-1] if calm else 0, 0)
@@ -310,7 +318,7 @@ def _cut(branch: Branch, forward: int, target: float, name: str) -> tuple[Branch
     travel = branch.model.difference(branch.states[at], branch.states[before])
     point: Point = special.get(at, branch.row(at))
     kind = point.kind if isinstance(point, SpecialPoint) else "lost"
-    if kind == "CO":
+    if kind == "CO" and last + 1 < len(order):
         along = branch.model.difference(branch.states[int(order[last + 1])], branch.states[at])
     else:
         along = _critical(branch.model, point, kind, travel)

@@ -35,7 +35,7 @@ def orbits_at_value(branch: CycleBranch, name: str, value: float) -> list[OrbitP
             point = settled(flow, between, {**branch.parameters_at(i), name: value}, branch.orbits[i].shift, branch)
             found += [point] if point is not None else []
     if len(branch) and column[-1] == 0.0:
-        found.append(branch.row_with(len(branch) - 1, branch.eigenvalues[-1]))
+        found.append(branch.row(len(branch) - 1))
     return found
 
 

@@ -22,9 +22,10 @@ from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.walk.steps import Item
 from mjcont.numerics.walk.trace import Trace
 from mjcont.oscillation.flows import ModelFlow
-from mjcont.results.orbits import CycleBranch, Orbit, readings, special_orbit
-from mjcont.results.points import Column, show
-from mjcont.results.provenance import provenance
+from mjcont.results.model import provenance
+from mjcont.results.orbits import CycleBranch, Orbit, readings
+from mjcont.results.points import Column, Mark, show
+from mjcont.results.spectra import Spectra
 
 Row = tuple[CurvePoint, Located | None]
 # how far from the unit circle a multiplier cannot be told from it; times the error of the trivial one
@@ -122,17 +123,17 @@ def collect(
     words, counts = zip(*(verdict(o, e.kind if e else "") for o, (_, e) in zip(orbits, rows, strict=True)), strict=True)
     free = {p.name: (p.low, p.high) for p in system.free}
     base = dict(orbits[0].parameters)
-    branch = CycleBranch(
+    return CycleBranch(
         kind=kind,
         name=flow.model.name,
         columns=_columns(flow, orbits, system),
         states=_frozen(np.array([flow.state(o.path.s[0]) for o in orbits])),
         state_labels=flow.model.state_labels,
-        eigenvalues=_frozen(np.array([o.multipliers for o in orbits])),
+        spectra=Spectra([o.multipliers for o in orbits]),
         stability=_frozen(np.array(words, dtype="U8")),
         n_unstable=_frozen(np.array(counts)),
         residuals=_frozen(np.array([p.error for p, _ in rows])),
-        special_points=(),
+        marks=_marks(rows),
         free=free,
         fixed={k: v for k, v in base.items() if k not in free},
         ends=[(t.end.status.value, t.end.message) for t in traces],
@@ -146,8 +147,6 @@ def collect(
         orbits=tuple(orbits),
         forcing=flow.record(),
     )
-    object.__setattr__(branch, "special_points", tuple(_special(branch, rows)))
-    return branch
 
 
 def _settings(settings: Settings, meshes: MeshSettings) -> dict[str, Any]:
@@ -175,21 +174,16 @@ def _columns(flow: ModelFlow, orbits: Sequence[Orbit], system: System) -> dict[s
     return found
 
 
-def _special(branch: CycleBranch, rows: Sequence[Row]) -> list[Any]:
+def _marks(rows: Sequence[Row]) -> tuple[Mark, ...]:
+    """Return what makes rows special points, labelled in their order."""
     counts: dict[str, int] = {}
     found = []
     for i, (_, e) in enumerate(rows):
-        if e is None:
-            continue
-        counts[e.kind] = counts.get(e.kind, 0) + 1
-        found.append(
-            special_orbit(
-                branch, i, kind=e.kind, label=f"{e.kind}{counts[e.kind]}", tolerance=e.tolerance,
-                converged=e.converged, coefficients={k: v for k, v in e.data.items() if isinstance(v, float | str)},
-                vectors={}, note=e.note, free=branch.free, curve=branch.kind,
-            )
-        )
-    return found
+        if e is not None:
+            counts[e.kind] = counts.get(e.kind, 0) + 1
+            scalars = {k: v for k, v in e.data.items() if isinstance(v, float | str)}
+            found.append(Mark(e.kind, f"{e.kind}{counts[e.kind]}", i, e.tolerance, e.converged, scalars, note=e.note))
+    return tuple(found)
 
 
 def _unresolved(orbits: Sequence[Orbit]) -> list[str]:

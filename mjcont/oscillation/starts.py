@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 
 from mjcont.errors import MjcontError, StartError
 from mjcont.numerics.equations.bordered import oriented
-from mjcont.numerics.equations.newton import find_start
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.equations.starts import find_start
 from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.flow import Flow
 from mjcont.numerics.orbits.follow import MeshSettings, orbit_near

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Mapping, Sequence
+from urllib.parse import quote
 
+from mjcont.outside.escapes import for_cell, for_page, for_terminal
 from mjcont.paper.findings import FigureResult, Finding
 
 INTRODUCTION = (
@@ -53,14 +54,14 @@ def markdown(results: Sequence[FigureResult], versions: Mapping[str, str]) -> st
     title, summary = _heading(results, versions)
     lines = [f"# {title}", "", f"{summary}.", "", INTRODUCTION, ""]
     for r in results:
-        lines += [f"## {r.title}", "", *([r.caption, ""] if r.caption else [])]
+        lines += [f"## {for_cell(r.title)}", "", *([for_terminal(r.caption), ""] if r.caption else [])]
         if r.reason:
-            lines += [f"**Failed**: {r.reason}", ""]
+            lines += [f"**Failed**: {for_cell(r.reason)}", ""]
             continue
         heads, rows = _table(r.findings)
-        lines += [f"![{r.label.capitalize()}]({r.image})", ""]
+        lines += [f"![{for_cell(r.label.capitalize())}]({quote(r.image)})", ""]
         lines += ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
-        lines += ["| " + " | ".join(c.replace("|", "\\|") for c in row) + " |" for row in rows] + [""]
+        lines += ["| " + " | ".join(map(for_cell, row)) + " |" for row in rows] + [""]
     return "\n".join(lines)
 
 
@@ -79,20 +80,20 @@ td:last-child { white-space: nowrap; font-weight: 600 }
 
 def as_html(results: Sequence[FigureResult], versions: Mapping[str, str]) -> str:
     """Return the report as a page that stands beside its pictures."""
-    title, summary = (html.escape(t) for t in _heading(results, versions))
-    body = [f"<h1>{title}</h1>", f'<p class="versions">{summary}.</p>', f"<p>{html.escape(INTRODUCTION)}</p>"]
+    title, summary = (for_page(t) for t in _heading(results, versions))
+    body = [f"<h1>{title}</h1>", f'<p class="versions">{summary}.</p>', f"<p>{for_page(INTRODUCTION)}</p>"]
     for r in results:
         anchor = r.image.removesuffix(".png")
-        body += [f'<h2 id="{anchor}">{html.escape(r.title)}</h2>']
-        body += [f"<p>{html.escape(r.caption)}</p>"] if r.caption else []
+        body += [f'<h2 id="{for_page(anchor)}">{for_page(r.title)}</h2>']
+        body += [f"<p>{for_page(r.caption)}</p>"] if r.caption else []
         if r.reason:
-            body += [f'<p class="fails">Failed: {html.escape(r.reason)}</p>']
+            body += [f'<p class="fails">Failed: {for_page(r.reason)}</p>']
             continue
-        body += [f'<img src="{r.image}" alt="{r.label.capitalize()}">', "<table>"]
+        body += [f'<img src="{quote(r.image)}" alt="{for_page(r.label.capitalize())}">', "<table>"]
         heads, rows = _table(r.findings)
         body += ["<tr>" + "".join(f"<th>{h}</th>" for h in heads) + "</tr>"]
         for f, row in zip(r.findings, rows, strict=True):
-            cells = "".join(f"<td>{html.escape(c)}</td>" for c in row[:-1])
+            cells = "".join(f"<td>{for_page(c)}</td>" for c in row[:-1])
             body += [f'<tr>{cells}<td class="{"holds" if f.holds else "fails"}">{row[-1]}</td></tr>']
         body += ["</table>"]
     head = f'<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{title}</title>'

@@ -19,7 +19,6 @@ import re
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from importlib import metadata, resources
 from multiprocessing import connection
@@ -32,15 +31,17 @@ import numpy as np
 from mjcont.errors import MjcontError, NameLookupError
 from mjcont.models.loading import models_folder
 from mjcont.numerics.equations.problem import Array
+from mjcont.outside.interrupts import held
+from mjcont.outside.processes import end_with_parent, starting
+from mjcont.outside.saving import output_folder, write_file
+from mjcont.outside.sealing import digest
 from mjcont.paper.findings import FigureResult, Finding, label_of, stem
 from mjcont.paper.report import as_html, headline, markdown, verdict
 from mjcont.results.branch import Branch
-from mjcont.results.files import write_atomically
 
 _SCRIPT = re.compile(r"fig(\d\d)\.py")
 # figures that take longest are started first, so that no processor waits for one of them at the end
-_LONGEST = (8, 11, 13, 15)
-_ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
+_LONGEST = (15, 11, 8, 9, 2, 12, 14)
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +156,7 @@ def draw(
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise MjcontError(f"cannot make the folder {out}: {error.strerror or error}") from error
+    output_folder(out)
     stamps = {n: _stamp(n) for n in dict.fromkeys([*covered, *chosen])}
     results = {n: r for n in stamps if (r := _up_to_date(out, n, stamps[n])) is not None}
     todo = [n for n in chosen if force or n not in results or results[n].reason]
@@ -166,8 +168,8 @@ def draw(
             say(str(result))
     finally:
         done = [results[n] for n in stamps if n in results]
-        _write(out / "report.md", markdown(done, versions()))
-        report = _write(out / "report.html", as_html(done, versions()))
+        write_file(out / "report.md", markdown(done, versions()))
+        report = write_file(out / "report.html", as_html(done, versions()))
     say(headline(done))
     say(f"report: {report}")
     return ReproduceResult({n: results[n] for n in chosen}, report)
@@ -187,41 +189,29 @@ def _chosen(figures: Sequence[int] | None) -> list[int]:
 def _draw_all(todo: Sequence[int | str], out: Path, stamps: dict[int | str, str], jobs: int) -> Iterator[FigureResult]:
     """Draw figures in processes of their own, so that one that crashes harms no other; yield each as it ends."""
     context = multiprocessing.get_context("spawn")
-    waiting = sorted(todo, key=lambda n: n not in _LONGEST)
+    waiting = sorted(todo, key=lambda n: _LONGEST.index(n) if n in _LONGEST else len(_LONGEST))
     running: dict[Any, tuple[int | str, Any]] = {}
     try:
         while waiting or running:
             while waiting and len(running) < jobs:
                 n = waiting.pop(0)
                 process = context.Process(target=_draw, args=(n, _script(n), out, stamps[n]), name=label_of(n))
-                with _environment(_ONE_THREAD):
+                with held(), starting():
                     process.start()
-                running[process.sentinel] = (n, process)
+                    running[process.sentinel] = (n, process)
             for sentinel in connection.wait(list(running)):
                 n, process = running.pop(sentinel)
                 process.join()
                 result = _read(out, n)
                 if result is None:
                     result = _result(n, _script(n), (), f"its process ended with code {process.exitcode}", stamps[n])
-                    _keep(out, result)
+                    write_record(_record(out, n), result, out / result.image)
                 yield result
     finally:
         for _, process in running.values():
-            process.terminate()
+            process.kill()
+        for _, process in running.values():
             process.join()
-
-
-@contextmanager
-def _environment(values: dict[str, str]) -> Iterator[None]:
-    """Set environment variables for the processes that are started meanwhile."""
-    before = {name: os.environ[name] for name in values if name in os.environ}
-    os.environ.update(values)
-    try:
-        yield
-    finally:
-        for name in values:
-            del os.environ[name]
-        os.environ.update(before)
 
 
 def _draw(figure: int | str, script: Path, out: Path, stamp: str) -> None:
@@ -229,7 +219,7 @@ def _draw(figure: int | str, script: Path, out: Path, stamp: str) -> None:
     import matplotlib
 
     # An interrupt ends this process: continuation would take it as a wish for a partial branch.
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    end_with_parent(signal.SIG_DFL)
     matplotlib.rcdefaults()
     png, record = out / f"{stem(figure)}.png", _record(out, figure)
     for old in (record, png):
@@ -242,7 +232,7 @@ def _draw(figure: int | str, script: Path, out: Path, stamp: str) -> None:
             raise MjcontError(f"{script.name} drew no {png.name}")
     except Exception as error:
         findings, reason = (), _one_line(error)
-    _keep(out, _result(figure, script, findings, reason, stamp))
+    write_record(record, _result(figure, script, findings, reason, stamp), png)
 
 
 def load_script(script: Path) -> ModuleType:
@@ -281,23 +271,25 @@ def _record(out: Path, figure: int | str) -> Path:
     return out / f"{stem(figure)}.json"
 
 
-def _write(path: Path, text: str) -> Path:
-    def write(temporary: Path) -> None:
-        temporary.write_bytes(text.encode())
-
-    return write_atomically(path, write)
-
-
-def _keep(out: Path, result: FigureResult) -> None:
-    """Write a result's record."""
-    _write(_record(out, result.figure), json.dumps(asdict(result), indent=2) + "\n")
+def write_record(record: Path, result: FigureResult, png: Path) -> None:
+    """Store what a figure gave, with the digests of that and of its picture."""
+    data: dict[str, Any] = asdict(result)
+    data["picture"] = hashlib.sha256(png.read_bytes()).hexdigest() if png.is_file() else ""
+    write_file(record, json.dumps({**data, "sha256": digest(data)}, indent=2) + "\n")
 
 
 def _read(out: Path, figure: int | str) -> FigureResult | None:
+    """Return what is stored of a figure, None unless it and the picture are as they were written."""
     try:
         data: dict[str, Any] = json.loads(_record(out, figure).read_text(encoding="utf-8"))
-        return FigureResult(**{**data, "findings": tuple(Finding(**f) for f in data["findings"])})
-    except (OSError, ValueError, TypeError, KeyError):
+        if data.pop("sha256") != digest(data):
+            return None
+        picture = data.pop("picture")
+        result = FigureResult(**{**data, "findings": tuple(Finding(**f) for f in data["findings"])})
+        if picture and hashlib.sha256((out / result.image).read_bytes()).hexdigest() != picture:
+            return None
+        return result
+    except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError):
         return None
 
 

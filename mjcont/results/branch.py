@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -14,23 +15,9 @@ from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.certificates import Certificate
 from mjcont.results.model import Model, model_of
-from mjcont.results.points import Column, Point, SpecialPoint, show
-
-
-class _Deferred:
-    """A field that may be given as a function: it is called once, where the field is read first."""
-
-    def __init__(self, name: str) -> None:
-        self._key = f"_{name}"
-
-    def __get__(self, instance: Any, owner: type) -> Any:
-        value = instance.__dict__[self._key]
-        if callable(value):
-            value = instance.__dict__[self._key] = value()
-        return value
-
-    def __set__(self, instance: Any, value: Any) -> None:
-        instance.__dict__[self._key] = value
+from mjcont.results.points import Column, Mark, Point, SpecialPoint, show
+from mjcont.results.quantities import column_of
+from mjcont.results.spectra import Spectra
 
 
 @dataclass(frozen=True)
@@ -43,11 +30,10 @@ class Branch:
     name : the model's name.
     columns : mapping of name to Column; every free parameter and observable.
     states : (N, nq) array.
-    eigenvalues : (N, m) complex array, NaN where a row has fewer; computed where first read, as far as stability did
-        not need them.
+    spectra : the eigenvalues of the rows, those that stability could do without computed where they are read.
     stability : (N,) array of "stable", "unstable", "marginal".
     n_unstable : (N,) int array.
-    special_points : in order along the branch.
+    marks : what makes rows special points, in order along the branch.
     free : mapping of free parameter to its bounds.
     fixed, fixed_units : mappings of the other parameters to their values and units.
     ends : status and sentence of both ends, in the order of storage.
@@ -65,11 +51,11 @@ class Branch:
     columns: Mapping[str, Column]
     states: Array
     state_labels: Sequence[tuple[str, str]]
-    eigenvalues: Array
+    spectra: Spectra
     stability: Array
     n_unstable: Array
     residuals: Array
-    special_points: Sequence[SpecialPoint]
+    marks: Sequence[Mark]
     free: Mapping[str, tuple[float, float]]
     fixed: Mapping[str, float]
     ends: Sequence[tuple[str, str]]
@@ -89,23 +75,29 @@ class Branch:
 
     def __getitem__(self, name: str) -> Array:
         """Return a column, SI and radians, (N,)."""
-        if name in self.columns:
-            return self.columns[name].values
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].values
         if name in self.fixed:
             return np.full(len(self), self.fixed[name])
         raise unknown_name("column", name, [*self.columns, *self.fixed])
 
     def unit(self, name: str) -> str:
         """Return the unit of a column or of a fixed parameter."""
-        if name in self.columns:
-            return self.columns[name].unit
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].unit
         if name in self.fixed:
             return self.fixed_units.get(name, "")
         raise unknown_name("column", name, [*self.columns, *self.fixed])
 
-    def __getstate__(self) -> dict[str, Any]:
-        """Return what is pickled and copied: everything, computed."""
-        return {**self.__dict__, "_eigenvalues": self.eigenvalues}
+    @property
+    def eigenvalues(self) -> Array:
+        """Eigenvalues of all rows, (N, m), NaN where a row has fewer; those that are not known are computed."""
+        return self.spectra.complete()
+
+    @cached_property
+    def special_points(self) -> Sequence[SpecialPoint]:
+        """The rows that are special points, in order along the branch."""
+        return tuple(m.on(self.row(m.index), self.free, self.kind) for m in self.marks)
 
     @property
     def model(self) -> Model:
@@ -141,16 +133,12 @@ class Branch:
         raise unknown_name("special point", label, [p.label for p in self.special_points])
 
     def row(self, index: int) -> Point:
-        """Return a point of the branch by its row."""
-        return self.row_with(index, self.eigenvalues[index])
-
-    def row_with(self, index: int, eigenvalues: Array) -> Point:
-        """Return a point of the branch by its row, its eigenvalues known."""
+        """Return a point of the branch by its row, its eigenvalues computed if they are not known."""
         return Point(
             self.parameters_at(index),
             {c.name: float(c.values[index]) for c in self.columns.values() if c.role == "observable"},
             self.states[index].copy(),
-            eigenvalues[~np.isnan(eigenvalues)],
+            self.spectra.row(index),
             str(self.stability[index]),
             int(self.n_unstable[index]),
             self.problem,
@@ -183,7 +171,12 @@ class Branch:
         return points_at(self, name, value)
 
     def save(self, path: str | Path) -> Path:
-        """Write the branch to an HDF5 file (replacing it whole or not at all) and return the path."""
+        """Write the branch to an HDF5 file (replacing it whole or not at all) and return the path.
+
+        Eigenvalues are written as far as they are known: a loaded branch computes the others where they are read. To
+        have all of them in the file, read `eigenvalues` before. Only where the file does not carry the problem
+        (a Mechanism made from a compiled model) are they computed now.
+        """
         from mjcont.results.branchfiles import save
 
         return save(self, path)
@@ -207,8 +200,8 @@ class Branch:
     def labels(self) -> list[str]:
         """Label of each row, empty where it is no special point."""
         labels = [""] * len(self)
-        for p in self.special_points:
-            labels[p.index] = p.label
+        for m in self.marks:
+            labels[m.index] = m.label
         return labels
 
     def __str__(self) -> str:
@@ -243,9 +236,6 @@ class Branch:
         return json.dumps(dict(self.settings), sort_keys=True)
 
 
-Branch.eigenvalues = _Deferred("eigenvalues")  # type: ignore[assignment]
-
-
 def sliced(branch: Branch, first: int, last: int) -> Branch:
     """Return rows first .. last of a branch, its special points among them kept under their labels."""
     rows = slice(first, last + 1)
@@ -253,14 +243,12 @@ def sliced(branch: Branch, first: int, last: int) -> Branch:
         branch,
         columns={n: replace(c, values=c.values[rows]) for n, c in branch.columns.items()},
         states=branch.states[rows],
-        eigenvalues=branch.eigenvalues[rows],
+        spectra=branch.spectra.part(first, last),
         stability=branch.stability[rows],
         n_unstable=branch.n_unstable[rows],
         residuals=branch.residuals[rows],
         start_index=min(max(branch.start_index - first, 0), last - first),
-        special_points=[
-            replace(p, index=p.index - first) for p in branch.special_points if first <= p.index <= last
-        ],
+        marks=[replace(m, index=m.index - first) for m in branch.marks if first <= m.index <= last],
     )
 
 

@@ -1,14 +1,15 @@
 """Branches as HDF5 that other tools read, and as CSV.
 
-Layout beside what `files` says (format version 1)::
+Layout beside what `files` says (format version 2)::
 
-    /                     attributes: start, start_index, settings, free, ends, neutral_saddles, notes (JSON), ...
+    /                     attributes: start, start_index, settings, free, ends, neutral_saddles, notes, held (JSON), ...
     /states               (N, nq) float64, attributes names, units
-    /eigenvalues/real, /eigenvalues/imag   (N, m) float64
+    /eigenvalues/real, /eigenvalues/imag   (N, m) float64: NaN where a row has fewer, and all of a row whose eigenvalues
+                          were not known; a loaded branch computes these where they are read
     /stability            (N,) int8: 1 stable, 0 marginal, -1 unstable
     /n_unstable           (N,) int32
     /residuals            (N,) float64, scaled
-    /fixed                attributes: the other parameters' values
+    /fixed                attributes: the other parameters' values, by the keys of their names
     /special_points/LABEL attributes: kind, index, tolerance, converged, note, coefficients (JSON); vectors/NAME
 
 A load path holds such a group for each of its segments.
@@ -25,25 +26,33 @@ import numpy as np
 
 from mjcont.results.branch import Branch
 from mjcont.results.certificates import Certificate
-from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, write_atomically, write_columns, write_common
+from mjcont.results.files import (
+    FORMAT_VERSION,
+    csv_columns,
+    frozen,
+    read_columns,
+    read_values,
+    save_hdf5,
+    write_common,
+    write_values,
+)
 from mjcont.results.model import Model
-from mjcont.results.points import SpecialPoint, special_from_row
+from mjcont.results.points import Mark
+from mjcont.results.spectra import Late, Spectra
 
 _CODES = {"stable": 1, "marginal": 0, "unstable": -1}
 
 
 def save(branch: Branch, path: str | Path) -> Path:
     """Write a branch as HDF5."""
-    return write_atomically(path, lambda temporary: _write(branch, temporary))
-
-
-def _write(branch: Branch, path: Path) -> None:
-    with h5py.File(path, "w") as f:
-        write_branch(branch, f)
+    return save_hdf5(path, lambda f: write_branch(branch, f))
 
 
 def write_branch(branch: Branch, f: h5py.Group, *, model: bool = True) -> None:
     """Write a branch into a file or a group of one, with its model unless the file has that elsewhere."""
+    if branch.problem is not None and branch.problem.mjcf is None:
+        branch.spectra.complete()  # the file does not carry what could compute them later
+    eigenvalues = branch.spectra.table()
     f.attrs.update(
         format="mjcont",
         format_version=FORMAT_VERSION,
@@ -56,37 +65,38 @@ def write_branch(branch: Branch, f: h5py.Group, *, model: bool = True) -> None:
         ends=json.dumps(list(branch.ends)),
         neutral_saddles=json.dumps(list(branch.neutral_saddles)),
         notes=json.dumps(list(branch.notes)),
+        held=json.dumps(list(branch.problem.held) if branch.problem is not None else []),
     )
     write_common(f, branch, model=model)
     f["states"] = branch.states
     f["states"].attrs.update(
         names=json.dumps([n for n, _ in branch.state_labels]), units=json.dumps([u for _, u in branch.state_labels])
     )
-    f["eigenvalues/real"], f["eigenvalues/imag"] = branch.eigenvalues.real, branch.eigenvalues.imag
+    f["eigenvalues/real"], f["eigenvalues/imag"] = eigenvalues.real, eigenvalues.imag
     f["stability"] = np.array([_CODES[s] for s in branch.stability], dtype=np.int8)
     f["stability"].attrs["meaning"] = "1 stable, 0 marginal, -1 unstable"
     f["n_unstable"] = branch.n_unstable.astype(np.int32)
     f["residuals"] = branch.residuals
-    f.create_group("fixed").attrs.update(dict(branch.fixed))
+    write_values(f, "fixed", branch.fixed)
     f.attrs["fixed_units"] = json.dumps(dict(branch.fixed_units))
     if branch.certificate is not None:
         f.attrs["certificate"] = branch.certificate.to_json()
     group = f.create_group("special_points")
-    for p in branch.special_points:
-        _write_special(group.create_group(p.label), p)
+    for mark in branch.marks:
+        _write_mark(group.create_group(mark.label), mark, branch.kind)
 
 
-def _write_special(g: h5py.Group, p: SpecialPoint) -> None:
+def _write_mark(g: h5py.Group, mark: Mark, curve: str) -> None:
     g.attrs.update(
-        kind=p.kind,
-        index=p.index,
-        tolerance=p.tolerance,
-        converged=p.converged,
-        note=p.note,
-        curve=p.curve,
-        coefficients=json.dumps(dict(p.coefficients)),
+        kind=mark.kind,
+        index=mark.index,
+        tolerance=mark.tolerance,
+        converged=mark.converged,
+        note=mark.note,
+        curve=curve,
+        coefficients=json.dumps(dict(mark.coefficients)),
     )
-    for name, vector in p.vectors.items():
+    for name, vector in mark.vectors.items():
         g[f"vectors/{name}"] = vector
 
 
@@ -95,19 +105,25 @@ def read_branch(f: h5py.Group, problem: Model | None) -> Branch:
     columns = read_columns(f)
     words = {v: k for k, v in _CODES.items()}
     labels = list(zip(json.loads(f["states"].attrs["names"]), json.loads(f["states"].attrs["units"]), strict=True))
+    free = {k: tuple(v) for k, v in json.loads(f.attrs["free"]).items()}
+    fixed = read_values(f, "fixed")
+    states, eigenvalues = frozen(f["states"][()]), f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]
+    held = json.loads(f.attrs.get("held", "[]"))
+    problem = problem.holding(held) if problem is not None and held else problem
+    late = Late(problem, states, fixed, {n: columns[n].values for n in free}, free)
     branch = Branch(
         kind=str(f.attrs["kind"]),
         name=str(f.attrs["name"]),
         columns=columns,
-        states=frozen(f["states"][()]),
+        states=states,
         state_labels=labels,
-        eigenvalues=frozen(f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]),
+        spectra=Spectra.of(eigenvalues, late),
         stability=frozen(np.array([words[int(c)] for c in f["stability"][()]], dtype="U8")),
         n_unstable=frozen(f["n_unstable"][()].astype(int)),
         residuals=frozen(f["residuals"][()]),
-        special_points=(),
-        free={k: tuple(v) for k, v in json.loads(f.attrs["free"]).items()},
-        fixed={k: float(v) for k, v in f["fixed"].attrs.items()},
+        marks=sorted((_read_mark(g, label) for label, g in f["special_points"].items()), key=lambda m: m.index),
+        free=free,
+        fixed=fixed,
         fixed_units=json.loads(f.attrs["fixed_units"]),
         ends=[tuple(e) for e in json.loads(f.attrs["ends"])],
         start=str(f.attrs["start"]),
@@ -121,11 +137,11 @@ def read_branch(f: h5py.Group, problem: Model | None) -> Branch:
         notes=json.loads(f.attrs["notes"]),
         certificate=_read_certificate(f),
     )
-    rows = {len(branch.states), len(branch.eigenvalues), len(branch.stability), len(branch.n_unstable)}
+    rows = {len(branch.states), len(branch.spectra), len(branch.stability), len(branch.n_unstable)}
     if rows | {len(branch.residuals)} | {len(c.values) for c in columns.values()} != {len(branch.states)}:
         raise ValueError("its columns differ in length")
-    points = [_read_special(f["special_points"][label], label, branch) for label in f["special_points"]]
-    object.__setattr__(branch, "special_points", tuple(sorted(points, key=lambda p: p.index)))
+    if any(not 0 <= m.index < len(branch) for m in branch.marks):
+        raise ValueError("a special point is on no row")
     return branch
 
 
@@ -135,25 +151,20 @@ def _read_certificate(f: h5py.File) -> Any:
     return Certificate.from_json(str(f.attrs["certificate"]))
 
 
-def _read_special(g: h5py.Group, label: str, branch: Branch) -> SpecialPoint:
-    index = int(g.attrs["index"])
-    vectors = {k: v[()] for k, v in g["vectors"].items()} if "vectors" in g else {}
-    return special_from_row(
-        branch.row(index),
+def _read_mark(g: h5py.Group, label: str) -> Mark:
+    return Mark(
         kind=str(g.attrs["kind"]),
         label=label,
-        index=index,
+        index=int(g.attrs["index"]),
         tolerance=float(g.attrs["tolerance"]),
         converged=bool(g.attrs["converged"]),
         coefficients=json.loads(g.attrs["coefficients"]),
-        vectors=vectors,
+        vectors={k: v[()] for k, v in g["vectors"].items()} if "vectors" in g else {},
         note=str(g.attrs["note"]),
-        free=branch.free,
-        curve=str(g.attrs["curve"]),
     )
 
 
 def write_csv(branch: Branch, path: str | Path, *, degrees: bool = True) -> Path:
     """Write the columns of a branch with units in the header; angles in degrees on request."""
     extra = list(zip(branch.stability, (int(n) for n in branch.n_unstable), branch.labels, strict=True))
-    return write_columns(branch.columns, path, ("stability", "unstable eigenvalues", "label"), extra, degrees=degrees)
+    return csv_columns(branch.columns, path, ("stability", "unstable eigenvalues", "label"), extra, degrees=degrees)

@@ -1,22 +1,21 @@
-"""What all result files share: written whole or not at all, a header, columns, the model; CSV. Nothing is executed.
+"""What all result files share: a header, columns, the model, a seal; CSV. Nothing read from a file is executed.
 
-Every HDF5 file begins with (format version 1)::
+Every HDF5 file begins with (format version 2; behind it stands the seal of `outside/sealing.py`)::
 
     /                     attributes: format "mjcont", format_version, kind, name, provenance_..., declared (JSON:
                           parameters by path; of a Python function only the name)
     /model                the MJCF text (absent for a VectorField)
-    /columns/NAME         (N,) float64, attributes unit, role; their order is an attribute of /columns
+    /columns/KEY          (N,) float64, attributes name, unit, role; their order is an attribute of /columns; KEY is the
+                          name as `outside/hdf5names.py` writes it
 
-The rest is written beside each result: `branchfiles`, `loadpaths`, `histories`, `sweeps`; `formats` reads them all.
+The rest is written beside each result: `branchfiles`, `loadpaths`, `histories`, `sweeps`; `formats` reads them all. In
+version 1 names stood for themselves, as paths, and nothing was sealed.
 """
 
 from __future__ import annotations
 
-import csv
 import json
 import math
-import os
-import tempfile
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -25,31 +24,24 @@ from typing import Any
 import h5py
 import numpy as np
 
-from mjcont.errors import MjcontError, ModelWarning, ResultFileError
+from mjcont.errors import ModelWarning
+from mjcont.outside.csvfiles import write_table
+from mjcont.outside.hdf5names import key
+from mjcont.outside.saving import write_file
+from mjcont.outside.sealing import sealed_file
 from mjcont.results.model import Model
 from mjcont.results.points import Column
 
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
 
 
-def write_atomically(path: str | Path, write: Callable[[Path], None]) -> Path:
-    """Let `write` fill a temporary file beside `path`, then put it in place in one step."""
-    path = Path(path)
-    if not path.parent.is_dir():
-        raise MjcontError(f"cannot write {path}: the folder {path.parent} does not exist")
-    try:
-        handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=path.suffix, dir=path.parent)
-    except OSError as error:
-        raise MjcontError(f"cannot write {path}: {error.strerror}") from error
-    os.close(handle)
-    try:
-        write(Path(name))
-        os.chmod(name, 0o644)
-        os.replace(name, path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
-    return path
+class Unfit(Exception):
+    """A file that is what it should be, but not for us; the sentence goes on after its name."""
+
+
+def save_hdf5(path: str | Path, fill: Callable[[h5py.File], None]) -> Path:
+    """Write what `fill` puts into an HDF5 file, sealed, whole or not at all."""
+    return write_file(path, sealed_file(fill))
 
 
 def write_common(f: h5py.Group, result: Any, *, model: bool = True) -> None:
@@ -59,9 +51,28 @@ def write_common(f: h5py.Group, result: Any, *, model: bool = True) -> None:
     if problem is not None and problem.mjcf is not None and model:
         f["model"] = problem.mjcf
     f.attrs["declared"] = json.dumps(dict(problem.declared) if problem is not None else {})
-    for c in result.columns.values():
-        f.create_dataset(f"columns/{c.name}", data=c.values, track_order=True).attrs.update(unit=c.unit, role=c.role)
-    f["columns"].attrs["order"] = json.dumps(list(result.columns))
+    write_columns(f, result.columns)
+
+
+def write_columns(f: h5py.Group, columns: Mapping[str, Column]) -> None:
+    """Write columns, any names."""
+    group = f.create_group("columns")
+    for name, c in columns.items():
+        dataset = group.create_dataset(key(name), data=c.values, track_order=True)
+        dataset.attrs.update(name=json.dumps(name), unit=c.unit, role=c.role)
+    group.attrs.update(order=json.dumps(list(columns)), keys=json.dumps([key(name) for name in columns]))
+
+
+def write_values(f: h5py.Group, name: str, values: Mapping[str, float]) -> None:
+    """Write numbers by any names, as attributes of a group."""
+    f.create_group(name).attrs.update({key(n): v for n, v in values.items()})
+    f.attrs[f"{name}_keys"] = json.dumps({key(n): n for n in values})
+
+
+def read_values(f: h5py.Group, name: str) -> dict[str, float]:
+    """Return what `write_values` wrote."""
+    names = json.loads(f.attrs.get(f"{name}_keys", "{}"))
+    return {names.get(k, k): float(v) for k, v in f[name].attrs.items()}
 
 
 def read_problem(f: h5py.File, problem: Model | None) -> Model | None:
@@ -73,21 +84,25 @@ def read_problem(f: h5py.File, problem: Model | None) -> Model | None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ModelWarning)  # said when the result was computed
         mechanism = Mechanism.from_xml(f["model"].asstr()[()])
-    for name, given in json.loads(f.attrs["declared"]).items():
+    declared = json.loads(f.attrs["declared"])
+    for name, given in declared.items():
         if "function" in given:
-            raise ResultFileError(
-                f"result file '{f.filename}': its parameter '{name}' is the Python function {given['function']}, "
-                "which a file cannot carry: declare it on a Mechanism again and load with problem=mechanism"
+            raise Unfit(
+                f": its parameter '{name}' is the Python function {given['function']}, which a file cannot carry: "
+                "declare it on a Mechanism again and load with problem=mechanism"
             )
-        mechanism.declare(name, *given["paths"], unit=given["unit"], bounds=given["bounds"])
+    mechanism.declare_again(declared)
     return mechanism
 
 
 def read_columns(f: h5py.Group) -> dict[str, Column]:
     """Return the columns in their order."""
     found = {}
-    for name in json.loads(f["columns"].attrs["order"]):
-        d = f["columns"][name]
+    group = f["columns"]
+    names = json.loads(group.attrs["order"])
+    stored = json.loads(group.attrs["keys"]) if "keys" in group.attrs else names
+    for name, place in zip(names, stored, strict=True):
+        d = group[place]
         found[name] = Column(name, d.attrs["unit"], d.attrs["role"], frozen(d[()]))
     return found
 
@@ -98,7 +113,7 @@ def frozen(array: np.ndarray) -> np.ndarray:
     return array
 
 
-def write_columns(
+def csv_columns(
     columns: Mapping[str, Column],
     path: str | Path,
     more: Sequence[str] = (),
@@ -113,28 +128,6 @@ def write_columns(
     rows = np.column_stack([c.values for c in columns.values()])
     rows[:, turn] = np.degrees(rows[:, turn])
 
-    def write(temporary: Path) -> None:
-        with temporary.open("w", newline="", encoding="utf-8") as f:
-            out = csv.writer(f)
-            out.writerow([*header, *more])
-            for i, row in enumerate(rows):
-                out.writerow([*(_csv_number(v) for v in row), *(extra[i] if extra else ())])
-
-    return write_atomically(path, write)
-
-
-def _csv_number(value: float) -> str:
-    return repr(float(value)) if math.isfinite(value) else ""
-
-
-def output_folder(path: str | Path) -> Path:
-    """Return a folder, made if it is missing, after trying to write to it."""
-    folder = Path(path)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        reason = "it is a file" if folder.is_file() else error.strerror
-        raise MjcontError(f"cannot write to the output folder '{path}': {reason}") from error
-    return folder
+    body = ([*(v if math.isfinite(v) else "" for v in row), *(extra[i] if extra else ())]
+            for i, row in enumerate(rows.tolist()))
+    return write_table(path, [*header, *more], body)

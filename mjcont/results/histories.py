@@ -1,10 +1,10 @@
 """Time histories, and their files.
 
-Layout of a file beside what `files` says (format version 1)::
+Layout of a file beside what `files` says (format version 2)::
 
     /               attributes: format, format_version, kind "history", name, status, message, settings (JSON), ...
     /model          the MJCF text (absent for a Mechanism made from a compiled model)
-    /columns/NAME   (N,) float64, attributes unit, role
+    /columns/KEY    (N,) float64, attributes name, unit, role
     /fixed          attributes: the other parameters' values (absent in older files)
     /states         (N, nq) float64
     /velocities     (N, nv) float64
@@ -23,9 +23,19 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, write_atomically, write_columns, write_common
+from mjcont.results.files import (
+    FORMAT_VERSION,
+    csv_columns,
+    frozen,
+    read_columns,
+    read_values,
+    save_hdf5,
+    write_common,
+    write_values,
+)
 from mjcont.results.model import Model
 from mjcont.results.points import Column
+from mjcont.results.quantities import column_of
 
 KIND = "history"
 
@@ -64,16 +74,16 @@ class History:
 
     def __getitem__(self, name: str) -> Array:
         """Return a column, (N,)."""
-        if name in self.columns:
-            return self.columns[name].values
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].values
         if name in self.fixed:
             return np.full(len(self), self.fixed[name])
         raise unknown_name("column", name, [*self.columns, *self.fixed])
 
     def unit(self, name: str) -> str:
         """Return the unit of a column or of a fixed parameter."""
-        if name in self.columns:
-            return self.columns[name].unit
+        if (own := column_of(name, self.columns)) is not None:
+            return self.columns[own].unit
         if name in self.fixed:
             return str(self.problem.parameter(name).unit) if self.problem is not None else ""
         raise unknown_name("column", name, [*self.columns, *self.fixed])
@@ -85,26 +95,25 @@ class History:
 
     def save(self, path: str | Path) -> Path:
         """Write the history to an HDF5 file (replacing it whole or not at all) and return the path."""
-        return write_atomically(path, self._write)
+        return save_hdf5(path, self._write)
 
-    def _write(self, path: Path) -> None:
-        with h5py.File(path, "w") as f:
-            f.attrs.update(
-                format="mjcont",
-                format_version=FORMAT_VERSION,
-                kind=KIND,
-                name=self.name,
-                status=self.status,
-                message=self.message,
-                settings=json.dumps(dict(self.settings)),
-            )
-            write_common(f, self)
-            f["states"], f["velocities"] = self.states, self.velocities
-            f.create_group("fixed").attrs.update(dict(self.fixed))
+    def _write(self, f: h5py.File) -> None:
+        f.attrs.update(
+            format="mjcont",
+            format_version=FORMAT_VERSION,
+            kind=KIND,
+            name=self.name,
+            status=self.status,
+            message=self.message,
+            settings=json.dumps(dict(self.settings)),
+        )
+        write_common(f, self)
+        f["states"], f["velocities"] = self.states, self.velocities
+        write_values(f, "fixed", self.fixed)
 
     def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
         """Write the columns as CSV with units in the header."""
-        return write_columns(self.columns, path, degrees=degrees)
+        return csv_columns(self.columns, path, degrees=degrees)
 
     def __str__(self) -> str:
         """Return a one-line summary."""
@@ -133,6 +142,6 @@ def read(f: h5py.File, problem: Model | None) -> History:
         settings=json.loads(f.attrs["settings"]),
         name=str(f.attrs["name"]),
         problem=problem,
-        fixed={k: float(v) for k, v in f["fixed"].attrs.items()} if "fixed" in f else {},
+        fixed=read_values(f, "fixed") if "fixed" in f else {},
         provenance={k.removeprefix(prefix): str(v) for k, v in f.attrs.items() if k.startswith(prefix)},
     )

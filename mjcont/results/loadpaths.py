@@ -1,6 +1,6 @@
 """Results of following a load: the pieces of branches on which a mechanism rests, and its jumps between them.
 
-Layout of a file beside what `files` says (format version 1)::
+Layout of a file beside what `files` says (format version 2)::
 
     /                 attributes: format, format_version, kind "load path", name, vertices (JSON), status, message
     /model            the MJCF text
@@ -25,7 +25,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
-from mjcont.results.files import FORMAT_VERSION, write_atomically, write_columns
+from mjcont.results.files import FORMAT_VERSION, csv_columns, save_hdf5
 from mjcont.results.model import Model
 from mjcont.results.points import Column, Point, show
 
@@ -146,9 +146,6 @@ class LoadPath:
 
     def __getitem__(self, name: str) -> Array:
         """Return a column along the whole path, SI and radians; a jump lies between two rows."""
-        valid = [*self.segments[0].branch.columns, *self.segments[0].branch.fixed]
-        if name not in valid:
-            raise unknown_name("column", name, valid)
         return np.concatenate([s[name] for s in self.segments])
 
     def unit(self, name: str) -> str:
@@ -177,41 +174,40 @@ class LoadPath:
         """Write the columns along the whole path as CSV with units in the header; a jump lies between two rows."""
         names = [*self.names, *(n for n in self.segments[0].branch.columns if n not in self.names)]
         columns = {n: Column(n, self.unit(n), "path", self[n]) for n in names}
-        return write_columns(columns, path, degrees=degrees)
+        return csv_columns(columns, path, degrees=degrees)
 
     def save(self, path: str | Path) -> Path:
         """Write the path to an HDF5 file (replacing it whole or not at all) and return the file's path."""
-        return write_atomically(path, self._write)
+        return save_hdf5(path, self._write)
 
-    def _write(self, file: Path) -> None:
-        with h5py.File(file, "w") as f:
-            f.attrs.update(
-                format="mjcont",
-                format_version=FORMAT_VERSION,
-                kind=KIND,
-                name=self.name,
-                vertices=json.dumps([dict(v) for v in self.vertices]),
-                status=self.status,
-                message=self.message,
-                evaluations=self.evaluations,
-                declared=json.dumps(dict(self.problem.declared) if self.problem is not None else {}),
+    def _write(self, f: h5py.File) -> None:
+        f.attrs.update(
+            format="mjcont",
+            format_version=FORMAT_VERSION,
+            kind=KIND,
+            name=self.name,
+            vertices=json.dumps([dict(v) for v in self.vertices]),
+            status=self.status,
+            message=self.message,
+            evaluations=self.evaluations,
+            declared=json.dumps(dict(self.problem.declared) if self.problem is not None else {}),
+        )
+        mjcf = self.problem.mjcf if self.problem is not None else None
+        if mjcf is not None:
+            f["model"] = mjcf
+        for i, s in enumerate(self.segments):
+            g = f.create_group(f"segments/{i}")
+            write_branch(s.branch, g, model=False)
+            g.attrs.update(direction=s.direction, leg=s.leg)
+        for i, j in enumerate(self.jumps):
+            g = f.create_group(f"jumps/{i}")
+            g.attrs.update(
+                label=j.label, kind=j.kind, index=j.index, energy_note=j.energy_note, time=j.time, steps=j.steps,
+                status=j.status, message=j.message, landed=j.after is not None,
             )
-            mjcf = self.problem.mjcf if self.problem is not None else None
-            if mjcf is not None:
-                f["model"] = mjcf
-            for i, s in enumerate(self.segments):
-                g = f.create_group(f"segments/{i}")
-                write_branch(s.branch, g, model=False)
-                g.attrs.update(direction=s.direction, leg=s.leg)
-            for i, j in enumerate(self.jumps):
-                g = f.create_group(f"jumps/{i}")
-                g.attrs.update(
-                    label=j.label, kind=j.kind, index=j.index, energy_note=j.energy_note, time=j.time, steps=j.steps,
-                    status=j.status, message=j.message, landed=j.after is not None,
-                )
-                if j.energy is not None:
-                    g.attrs["energy"] = j.energy
-                g["states"] = j.states
+            if j.energy is not None:
+                g.attrs["energy"] = j.energy
+            g["states"] = j.states
 
     def plot(self, x: str | None = None, y: str | None = None, **options: Any) -> Any:
         """Draw the path with arrows; default the parameter against the first observable. See `mjcont.plot`."""

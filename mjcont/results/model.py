@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import hashlib
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from functools import cache
+from importlib import metadata
+from typing import Any, Protocol, Self
 
 from mjcont.errors import BoundsError, MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array, Equations, Values
-from mjcont.results.quantities import Observable, Parameter, finite_pair
+from mjcont.results.quantities import Observable, Parameter, column_of, finite_pair
 
 
 class Model(Equations):
@@ -29,6 +32,7 @@ class Model(Equations):
     mjcf : its MJCF text, which results carry, or None.
     declared : parameters declared in Python, as results store them.
     constrained : whether springs stand for constraints, of which results carry notes.
+    follows_scale : whether its `state_scale` was not given, so that curves tell it (see `rescaled`).
     """
 
     name: str
@@ -38,6 +42,7 @@ class Model(Equations):
     mjcf: str | None = None
     declared: Mapping[str, Any] = {}
     constrained: bool = False
+    follows_scale: bool = False
 
     @property
     @abstractmethod
@@ -56,6 +61,14 @@ class Model(Equations):
         """Return all observables for states (m, nq), a parameter having a value of its own in each (m,)."""
         return self.measure(states, [{**values, name: v} for v in column.tolist()])
 
+    def rescaled(self, sizes: Array, *, grow: bool = False) -> Self | None:
+        """Return this model with a scale that fits sizes of its state (n,); None where it fits or was given.
+
+        With `grow` a scale only becomes larger: what is seen at one point is no more than a part.
+        """
+        del sizes, grow
+        return None
+
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`."""
         if name not in self.parameters:
@@ -63,10 +76,11 @@ class Model(Equations):
         return self.parameters[name]
 
     def observable(self, name: str) -> Observable:
-        """Return the observable called `name`."""
-        if name not in self.observables:
+        """Return the observable called `name`; a parameter may have the same name (see `told_apart`)."""
+        own = column_of(name, self.observables)
+        if own is None:
             raise unknown_name("observable", name, self.observables)
-        return self.observables[name]
+        return self.observables[own]
 
 
 def model_of(problem: Equations | None, what: str = "the point") -> Model:
@@ -119,3 +133,21 @@ def check_bounds(problem: Parametrised, name: str, bounds: tuple[float, float] |
             + ("" if parameter.springs else " or widen the range in the XML")
         )
     return low, high
+
+
+@cache
+def _versions() -> tuple[tuple[str, str], ...]:
+    """Return the versions of what results depend on."""
+    found = [(name, metadata.version(name)) for name in ("mujoco", "numpy", "scipy")]
+    try:
+        return (*found, ("mjcont", metadata.version("mjcont")))
+    except metadata.PackageNotFoundError:
+        return (*found, ("mjcont", "not installed"))
+
+
+def provenance(problem: Model | None) -> dict[str, str]:
+    """Return versions and the model's hash."""
+    versions = dict(_versions())
+    if problem is not None and problem.mjcf is not None:
+        versions["model_sha256"] = hashlib.sha256(problem.mjcf.encode()).hexdigest()
+    return versions

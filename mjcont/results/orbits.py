@@ -7,7 +7,8 @@ circle.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -17,9 +18,8 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.path import Path
 from mjcont.results.branch import Branch
 from mjcont.results.histories import History
-from mjcont.results.model import Model, model_of
-from mjcont.results.points import Column, Point, SpecialPoint, special_from_row
-from mjcont.results.provenance import provenance
+from mjcont.results.model import Model, model_of, provenance
+from mjcont.results.points import Column, Point, SpecialPoint
 
 CYCLES, RESPONSES = "cycles", "responses"
 # places at which an interval's polynomial is read for extremes
@@ -217,11 +217,18 @@ class CycleBranch(Branch):
             return self.row(range(len(self))[int(name)])
         return Branch.__getitem__(self, name)
 
-    def row_with(self, index: int, eigenvalues: Array) -> OrbitPoint:
+    def row(self, index: int) -> OrbitPoint:
         """Return a row, an `OrbitPoint`."""
-        p = Branch.row_with(self, index, eigenvalues)
-        return OrbitPoint(p.parameters, p.observables, p.state, p.eigenvalues, p.stability, p.n_unstable, p.problem,
-                          p.units, self.orbits[index])
+        p = Branch.row(self, index)
+        return OrbitPoint(**{f.name: getattr(p, f.name) for f in fields(p)}, orbit=self.orbits[index])
+
+    @cached_property
+    def special_points(self) -> Sequence[SpecialPoint]:
+        """The rows that are special points, each a `SpecialOrbit`."""
+        found = (m.on(Branch.row(self, m.index), self.free, self.kind) for m in self.marks)
+        return tuple(
+            SpecialOrbit(**{f.name: getattr(p, f.name) for f in fields(p)}, orbit=self.orbits[p.index]) for p in found
+        )
 
     def at(self, **target: float) -> list[Point]:
         """Return the orbits at which a free parameter has a value, corrected to it (there may be several).
@@ -237,16 +244,6 @@ class CycleBranch(Branch):
             raise MjcontError("at() takes exactly one parameter and value, such as at(P=2.0)")
         ((name, value),) = target.items()
         return list(orbits_at_value(self, name, value))
-
-
-def special_orbit(branch: CycleBranch, index: int, **details: Any) -> SpecialOrbit:
-    """Return a special point from its row of a curve of orbits and what is known beside it."""
-    p = special_from_row(branch.row(index), index=index, **details)
-    return SpecialOrbit(
-        p.parameters, p.observables, p.state, p.eigenvalues, p.stability, p.n_unstable, p.problem, p.units, p.kind,
-        p.label, p.index, p.tolerance, p.converged, p.coefficients, p.vectors, p.note, p.free, p.curve,
-        branch.orbits[index],
-    )
 
 
 def readings(orbit: Orbit, harmonic: bool) -> dict[str, Array]:

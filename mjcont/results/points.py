@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import name_of
 from mjcont.results.model import Model, model_of
+from mjcont.results.quantities import column_of
 
 # observables that a summary line shows; all are in the columns
 _SHOWN = 5
@@ -51,8 +52,8 @@ class Point:
         """Return a parameter's or observable's value."""
         if name in self.parameters:
             return self.parameters[name]
-        if name in self.observables:
-            return self.observables[name]
+        if (own := column_of(name, self.observables)) is not None:
+            return self.observables[own]
         raise unknown_name("parameter or observable", name, [*self.parameters, *self.observables])
 
     @property
@@ -118,16 +119,20 @@ class Column:
     values: Array
 
 
-def special_from_row(row: Point, **details: Any) -> SpecialPoint:
-    """Return a special point from its row of a branch and what is known beside it."""
-    return SpecialPoint(
-        row.parameters,
-        row.observables,
-        row.state,
-        row.eigenvalues,
-        row.stability,
-        row.n_unstable,
-        row.problem,
-        row.units,
-        **details,
-    )
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """What makes a row of a branch a special point; the attributes are those of `SpecialPoint`."""
+
+    kind: str
+    label: str
+    index: int
+    tolerance: float
+    converged: bool = True
+    coefficients: Mapping[str, Any] = field(default_factory=dict)
+    vectors: Mapping[str, Array] = field(default_factory=dict, repr=False)
+    note: str = ""
+
+    def on(self, row: Point, free: Mapping[str, tuple[float, float]], curve: str) -> SpecialPoint:
+        """Return the special point that a row is, on a kind of curve in parameters that are free."""
+        seen, own = ({f.name: getattr(x, f.name) for f in fields(x)} for x in (row, self))
+        return SpecialPoint(**seen, **own, free=free, curve=curve)

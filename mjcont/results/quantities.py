@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Container, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar
 
 import numpy as np
 
 from mjcont.errors import BoundsError, ParameterError
 
+Given = TypeVar("Given")
 FRICTION = ("frictionless", "refuse")
 # products of a few larger numbers overflow
 LARGEST = 1e100
@@ -170,13 +171,52 @@ class Parameter:
 class Observable:
     """A named scalar read from a state: `function(model, data)` for a Mechanism, in `unit`.
 
-    `source` is the field of MuJoCo's data and the entry in it, where the observable is no more than that.
+    `source` is the field of MuJoCo's data and the entry in it, where the observable is no more than that, `of` what
+    it belongs to, one of `OWNERS`.
     """
 
     name: str
     unit: str
     function: Callable[[Any, Any], float]
     source: tuple[str, int] | None = None
+    of: str = ""
+
+
+# Two names that are one: an actuator is often called like its joint. The parameter keeps the bare name, the observable
+# is `joint:NAME` (`sensor:NAME`, `state:NAME`). Where the parameter has no column, the bare name means the observable.
+OWNERS = ("sensor", "joint", "state")
+
+
+def told_apart(observables: Mapping[str, Observable], taken: Container[str]) -> dict[str, Observable]:
+    """Return observables under names of their own: one that is called like a parameter says what it belongs to."""
+    own = [replace(o, name=f"{o.of}:{n}") if n in taken and o.of else o for n, o in observables.items()]
+    return {o.name: o for o in own}
+
+
+def own_observable(
+    name: str, unit: str, function: Callable[[Any, Any], float], taken: Container[str]
+) -> Observable:
+    """Return an observable of a user's own; ParameterError if a parameter has its name."""
+    if name in taken:
+        raise ParameterError(f"observable '{name}': a parameter has this name; choose another")
+    return Observable(name, unit, function)
+
+
+def column_of(name: str, columns: Container[str]) -> str | None:
+    """Return the one of `columns` that a name means, None if it means none."""
+    return next((n for n in (name, *(f"{owner}:{name}" for owner in OWNERS)) if n in columns), None)
+
+
+def meant(name: str, varying: Container[str], observables: Container[str]) -> str:
+    """Return the column that a name means along a curve in the parameters `varying`."""
+    return name if name in varying else column_of(name, observables) or name
+
+
+def meant_each(given: Mapping[str, Given] | None, varying: Container[str], observables: Container[str]) -> (
+    dict[str, Given]
+):
+    """Return what is given by names, by the columns that they mean; nothing for None."""
+    return {meant(name, varying, observables): entry for name, entry in (given or {}).items()}
 
 
 def finite(what: str, value: Any) -> float:

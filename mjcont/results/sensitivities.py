@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,6 +13,7 @@ import numpy as np
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import name_of
+from mjcont.outside import csvfiles
 from mjcont.results.points import Point, SpecialPoint, show
 
 
@@ -202,22 +201,13 @@ def _signed(value: float, unit: str) -> str:
 
 def write_table(s: Sensitivities, path: str | Path) -> Path:
     """Write sensitivities as CSV, SI and radians, a row a parameter."""
-    from mjcont.results.files import write_atomically
-
-    text = io.StringIO()
-    out = csv.writer(text, lineterminator="\n")
     head = ["parameter", "unit", "value", "tolerance"]
     for name in s.quantities:
         unit = s.units[name] or "1"
         head += [f"d {name} [{unit} / unit]", f"elasticity of {name}", f"change of {name} [{unit}]"]
-    out.writerow(head)
+    rows: list[list[Any]] = []
     for i, name in enumerate(s.parameters):
-        row: list[Any] = [name, s.units[name] or "1", repr(s.values[name]), repr(s.tolerances[name])]
+        rows.append([name, s.units[name] or "1", float(s.values[name]), float(s.tolerances[name])])
         for j in range(len(s.quantities)):
-            row += [repr(float(a[i, j])) for a in (s.derivatives, s.elasticities, s.changes)]
-        out.writerow(row)
-
-    def write(to: Path) -> None:
-        to.write_text(text.getvalue(), encoding="utf-8")
-
-    return write_atomically(path, write)
+            rows[-1] += [float(a[i, j]) for a in (s.derivatives, s.elasticities, s.changes)]
+    return csvfiles.write_table(path, head, rows)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from mjcont.numerics.equations.problem import Array
+from mjcont.outside.escapes import for_picture
 from mjcont.results.branch import Branch
 from mjcont.results.points import SpecialPoint, show
 
@@ -64,6 +65,7 @@ class StiffnessStudy:
         axes.axhline(self.tol, color="0.6", linestyle="--", linewidth=0.8)
         if self.converged_from is not None:
             axes.axvline(self.converged_from, color="0.6", linestyle=":", linewidth=1.0)
-        axes.set_xlabel(f"{self.parameter} [{self.locus.unit(self.parameter)}]")
-        axes.set_ylabel(f"relative deviation of {self.quantity} from its limit")
+        unit = self.locus.unit(self.parameter)
+        axes.set_xlabel(f"{for_picture(self.parameter)} [{for_picture(unit)}]")
+        axes.set_ylabel(f"relative deviation of {for_picture(self.quantity)} from its limit")
         return axes

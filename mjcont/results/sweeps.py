@@ -1,10 +1,10 @@
 """What a sweep found: one row a case, and its files.
 
-Layout of an HDF5 file (format version 1)::
+Layout of an HDF5 file (format version 2)::
 
     /                 attributes: format, format_version, kind "sweep", name, what, nominal (JSON), provenance_...
     /study            the text of the study file, if there was one
-    /columns/NAME     (N,) float64, attributes unit, role: "parameter" (varied) or "quantity" (recorded)
+    /columns/KEY      (N,) float64, attributes name, unit, role: "parameter" (varied) or "quantity" (recorded)
     /cases, /starts   (N,) int64: the case's number in the design, the case it was continued from (-1: the nominal one)
     /status, /message (N,) strings: "ok" or "failed", and what went wrong
 """
@@ -23,7 +23,7 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, write_atomically, write_columns
+from mjcont.results.files import FORMAT_VERSION, csv_columns, frozen, read_columns, save_hdf5, write_columns
 from mjcont.results.model import Model
 from mjcont.results.points import Column, show
 
@@ -115,23 +115,20 @@ class SweepTable:
         more = ("case", "continued from", "status", "message")
         numbers = (map(int, self.cases), map(int, self.starts))
         extra = list(zip(*numbers, map(str, self.status), self.messages, strict=True))
-        return write_columns(self.columns, path, more, extra, degrees=degrees)
+        return csv_columns(self.columns, path, more, extra, degrees=degrees)
 
     def save(self, path: str | Path) -> Path:
         """Write the table as HDF5, whole or not at all; `mjcont.load` reads it."""
-        return write_atomically(path, self._write)
+        return save_hdf5(path, self._write)
 
-    def _write(self, path: Path) -> None:
-        with h5py.File(path, "w") as f:
-            f.attrs.update(format="mjcont", format_version=FORMAT_VERSION, kind=KIND, name=self.name, what=self.what)
-            f.attrs["nominal"] = json.dumps(dict(self.nominal))
-            f.attrs.update({f"provenance_{k}": v for k, v in self.provenance.items()})
-            for c in self.columns.values():
-                f.create_dataset(f"columns/{c.name}", data=c.values).attrs.update(unit=c.unit, role=c.role)
-            f["columns"].attrs["order"] = json.dumps(list(self.columns))
-            f["cases"], f["starts"], f["study"] = self.cases, self.starts, self.study
-            f["status"] = np.array([str(s) for s in self.status], dtype=h5py.string_dtype())
-            f["message"] = np.array(list(self.messages), dtype=h5py.string_dtype())
+    def _write(self, f: h5py.File) -> None:
+        f.attrs.update(format="mjcont", format_version=FORMAT_VERSION, kind=KIND, name=self.name, what=self.what)
+        f.attrs["nominal"] = json.dumps(dict(self.nominal))
+        f.attrs.update({f"provenance_{k}": v for k, v in self.provenance.items()})
+        write_columns(f, self.columns)
+        f["cases"], f["starts"], f["study"] = self.cases, self.starts, self.study
+        f["status"] = np.array([str(s) for s in self.status], dtype=h5py.string_dtype())
+        f["message"] = np.array(list(self.messages), dtype=h5py.string_dtype())
 
     def __str__(self) -> str:
         """Return how each quantity is distributed, what it goes with, and the first failures."""

@@ -16,6 +16,7 @@ from typing import Any
 from mjcont.errors import MjcontError, StudyError, unknown_name
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.results.model import check_bounds, units
+from mjcont.results.quantities import column_of, meant
 from mjcont.studies.schema import Table, shown
 
 FILE_STEM = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]*")
@@ -295,9 +296,10 @@ def region(table: Table, key: str, context: Context) -> dict[str, tuple[float, f
     found = {}
     for name in inner.data:
         with context.noting():
-            if name not in unit_of:
+            own = meant(name, (), context.mechanism.observables)
+            if own not in unit_of:
                 raise inner.error(name, unknown_name("observable, joint or parameter", name, unit_of))
-            found[name] = pair(inner, name, unit_of[name])
+            found[own] = pair(inner, name, unit_of[own])
     return found
 
 
@@ -343,17 +345,20 @@ def columns(table: Table, key: str, context: Context) -> tuple[str, ...]:
     return names
 
 
-def zeros(table: Table, key: str, context: Context) -> dict[str, float]:
-    """Read observables, or the table's own parameter, with values."""
+def zeros(table: Table, key: str, context: Context) -> dict[str, float | tuple[float, ...]]:
+    """Read observables, or the table's own parameter, each with a value or several."""
     inner, unit_of = table.table(key), units(context.mechanism)
-    own = table.data.get("parameter")
-    valid = [*context.mechanism.observables, *([own] if isinstance(own, str) and own in unit_of else [])]
-    found = {}
-    for name in inner.data:
+    varied = table.data.get("parameter")
+    valid = [*context.mechanism.observables, *([varied] if isinstance(varied, str) and varied in unit_of else [])]
+    found: dict[str, float | tuple[float, ...]] = {}
+    for name, given in inner.data.items():
         with context.noting():
-            if name not in valid:
+            own = column_of(name, valid)
+            if own is None:
                 raise inner.error(name, unknown_name("column", name, valid))
-            found[name] = inner.quantity(name, unit_of[name])
+            several = [unit_of[own]] * len(given) if isinstance(given, list) else []
+            values = inner.quantities(name, several, "a value or several") if several else None
+            found[own] = values or inner.quantity(name, unit_of[own])
     return found
 
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import itertools
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mjcont.results.files import write_atomically
+from mjcont.outside.csvfiles import write_table
 from mjcont.results.model import units
 
 if TYPE_CHECKING:
@@ -18,18 +16,6 @@ if TYPE_CHECKING:
     from mjcont.results.histories import History
     from mjcont.results.maps import SpecialMap, WorstCase
     from mjcont.results.search import Equilibria
-
-
-def _write(path: Path, head: Sequence[str], rows: Iterable[Sequence[Any]]) -> Path:
-    text = io.StringIO()
-    out = csv.writer(text, lineterminator="\n")
-    out.writerow(head)
-    out.writerows([repr(float(v)) if isinstance(v, float) else v for v in row] for row in rows)
-
-    def write(to: Path) -> None:
-        to.write_text(text.getvalue(), encoding="utf-8")
-
-    return write_atomically(path, write)
 
 
 def _heads(names: Iterable[str], unit_of: dict[str, str]) -> list[str]:
@@ -46,7 +32,7 @@ def equilibria_csv(found: Equilibria, problem: Any, path: Path) -> Path:
          *(float(p[n]) for n in (*problem.parameters, *problem.observables)), *(float(v) for v in p.state)]
         for p in found
     ]
-    return _write(path, head, rows)
+    return write_table(path, head, rows)
 
 
 def worst_case_csv(found: WorstCase, path: Path) -> Path:
@@ -54,7 +40,7 @@ def worst_case_csv(found: WorstCase, path: Path) -> Path:
     names = list(dict.fromkeys([*found.parameters, found.quantity]))
     last = {**found.parameters, found.quantity: found.value}
     rows = [*found.path, *([last] if not found.path or dict(found.path[-1]) != last else [])]
-    return _write(path, _heads(names, units(found.point.model)), [[float(r[n]) for n in names] for r in rows])
+    return write_table(path, _heads(names, units(found.point.model)), [[float(r[n]) for n in names] for r in rows])
 
 
 def map_csv(found: SpecialMap, path: Path) -> Path:
@@ -66,7 +52,7 @@ def map_csv(found: SpecialMap, path: Path) -> Path:
     for node in itertools.product(*(range(len(a)) for a in found.axes.values())):
         at = [float(a[i]) for a, i in zip(found.axes.values(), node, strict=True)]
         rows.append([*at, *(float(c[node]) for c in columns), str(found.messages[node])])
-    return _write(path, head, rows)
+    return write_table(path, head, rows)
 
 
 def certificate_csv(found: Certificate, path: Path) -> Path:
@@ -76,7 +62,7 @@ def certificate_csv(found: Certificate, path: Path) -> Path:
             "time [s]", "verdict", "sentence"]
     rows = [[c.index, c.label, *(float(c.parameters[n]) for n in names), c.stability, c.eigenvalue.real,
              c.eigenvalue.imag, float(c.rate), float(c.time), c.verdict, c.sentence] for c in found]
-    return _write(path, head, rows)
+    return write_table(path, head, rows)
 
 
 def barrier_csv(found: BarrierCurve, path: Path) -> Path:
@@ -84,7 +70,7 @@ def barrier_csv(found: BarrierCurve, path: Path) -> Path:
     head = ["row", *_heads([found.name], {found.name: found.unit}), "energy [J]", "message"]
     rows = [[int(r), float(v), float(e), b.message]
             for r, v, e, b in zip(found.rows, found.values, found.energy, found.barriers, strict=True)]
-    return _write(path, head, rows)
+    return write_table(path, head, rows)
 
 
 def draw_history(history: History, columns: Sequence[str], path: Path) -> Path:

@@ -16,7 +16,7 @@ from mjcont.errors import StudyError, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.loading import shipped_models
 from mjcont.results.quantities import FRICTION
-from mjcont.studies.keys import Context, Known, Reference, about, check_keys, pair, read, value_table
+from mjcont.studies.keys import Context, Reference, about, check_keys, pair, read, value_table
 from mjcont.studies.schema import Table
 from mjcont.studies.sweeps import read_sweep
 from mjcont.studies.tables import KINDS, PLOT, PLOT_SUFFIXES, known
@@ -180,6 +180,7 @@ def _assemble(root: Table, context: Context, friction: str | None) -> Study:
     branches: list[BranchPlan] = []
     tasks: list[Task] = []
     places: dict[str, str] = {}
+    named: list[Table] = []
     count = 0
     for kind, spec in KINDS.items():
         for table in _tables(root, spec.table, context):
@@ -187,6 +188,7 @@ def _assemble(root: Table, context: Context, friction: str | None) -> Study:
             given = read(table, spec, context)
             name = table.data.get("name")
             if isinstance(name, str):
+                named.append(table)
                 draws = table.data.get("columns") or ("png" in spec.keys and table.data.get("png", True))
                 _claim(places, "name", [name, *([f"{name}.png"] if draws else [])], table, context)
                 if name not in context.known:
@@ -194,6 +196,7 @@ def _assemble(root: Table, context: Context, friction: str | None) -> Study:
             if given is not None:
                 tasks += [] if kind == "branch" else [Task(kind, given.pop("name"), given)]
                 branches += [BranchPlan(origin=given.pop("from"), **given)] if kind == "branch" else []
+    _claim_branches(named, root, context)
     if not count and not context.problems:
         wanted = ", ".join(f"[[{spec.table}]]" for kind, spec in KINDS.items() if kind != "branch")
         missing = "" if "branch" in root.data else "this key is missing: "
@@ -224,14 +227,24 @@ def _tables(root: Table, key: str, context: Context) -> Sequence[Table]:
 def _claim(places: dict[str, str], key: str, files: Sequence[str], table: Table, context: Context) -> None:
     """Note names that would share a file, also where case makes no difference."""
     name = table.data[key]
-    stem, _, number = name.rpartition("_")
     with context.noting():
         for file in files:
             earlier = places.setdefault(file.casefold(), table.where)
             if earlier != table.where:
                 raise table.error(key, f"'{name}' is the {key} of {earlier} already")
-        if number.isdecimal() and context.known.get(stem, Known("")).kind == "diagram":
-            raise table.error(key, f"'{name}' is what a branch of the diagram '{stem}' is called")
+
+
+def _claim_branches(named: Sequence[Table], root: Table, context: Context) -> None:
+    """Refuse names of what is written besides: the branches of a diagram, and a sweep's tables."""
+    diagrams = {name.casefold(): name for name, known in context.known.items() if known.kind == "diagram"}
+    for table in named:
+        name = table.data["name"]
+        stem, _, number = name.casefold().rpartition("_")
+        with context.noting():
+            if number.isdecimal() and stem in diagrams:
+                raise table.error("name", f"'{name}' is what a branch of the diagram '{diagrams[stem]}' is called")
+            if "sweep" in root.data and name.casefold() == "sweep":
+                raise table.error("name", f"'{name}' is what the table of the study's sweep is called")
 
 
 def _parse(path: Path) -> dict[str, Any]:

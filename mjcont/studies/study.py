@@ -11,7 +11,7 @@ from typing import Any
 
 from mjcont.curves.continuation import continue_equilibria
 from mjcont.errors import MjcontError
-from mjcont.results.files import output_folder
+from mjcont.outside.saving import output_folder
 from mjcont.results.model import units
 from mjcont.results.points import show
 from mjcont.studies.plans import BranchPlan, PlotPlan, Study, Task, check_study, load_study

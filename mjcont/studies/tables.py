@@ -13,6 +13,7 @@ from mjcont.numerics.points import kinds
 from mjcont.numerics.points.kinds import CONTINUABLE
 from mjcont.results.model import check_bounds, units
 from mjcont.results.points import show
+from mjcont.results.quantities import column_of
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
 from mjcont.studies.keys import Context, Key, Kind
@@ -118,7 +119,7 @@ def _check_history(found: dict[str, Any], table: Table, context: Context) -> Non
     _one_start(found, table)
     valid = [*found["inputs"], *context.mechanism.observables]
     for i, name in enumerate(found["columns"]):
-        if name not in valid:
+        if column_of(name, valid) is None:
             raise table.error(f"columns[{i}]", unknown_name("input or observable", name, valid))
     found["start"] = {**context.common, **found["start"]}
 
@@ -197,8 +198,13 @@ _FROM = Key(r.reference("search", "branch", "locus", "path"),
             otherwise="none")
 _DIRECTION = Key(k.direction, "`1` or `-1`: only that way, in which the parameter first grows or falls.",
                  otherwise="both")
-_ZEROS = Key(k.zeros, "Columns and values whose passing is labelled UZ, such as `{ theta_1 = \"10 deg\" }`.", {},
-             otherwise="none")
+_ZEROS = Key(
+    k.zeros,
+    "Columns and values whose passing is labelled UZ, such as `{ theta_1 = \"10 deg\" }`; "
+    "or several values, `[0, \"10 deg\"]`.",
+    {},
+    otherwise="none",
+)
 _SETTINGS = Key(k.settings, "Fields of `mjcont.Settings`: `ds`, `ds_max`, `angle`, `chord`, `max_points`, ...", {},
                 otherwise="its defaults")
 _POINT = Key(r.reference(*SPECIAL, labels=_LOCATED),

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from itertools import product
 from typing import Any
 
@@ -17,9 +17,11 @@ from scipy import stats
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
 
-DESIGNS = ("latin hypercube", "monte carlo", "grid", "list")
+DESIGNS = ("latin hypercube", "monte carlo", "quasi-random", "grid", "list")
+EXTENDABLE = ("monte carlo", "quasi-random")  # the first cases of a larger one are those of a smaller one
 DISTRIBUTIONS = ("normal", "truncated normal", "uniform", "triangular", "lognormal")
 _MOST = 1_000_000
+_QUANTILES = 64  # of a distribution, to measure its width
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,6 +125,9 @@ def _probabilities(design: str, cases: int, dimensions: int, seed: int) -> Array
     inside = random.random((cases, dimensions))
     if design == "monte carlo":
         return np.clip(inside, 2.0**-54, None)  # no quantile is infinite
+    if design == "quasi-random":
+        sequence = stats.qmc.Sobol(dimensions, scramble=True, seed=np.random.Generator(np.random.PCG64(seed)))
+        return np.clip(sequence.random_base2(max(cases - 1, 0).bit_length())[:cases], 2.0**-54, None)
     strata = np.column_stack([random.permutation(cases) for _ in range(dimensions)])
     return np.clip((strata + inside) / cases, 2.0**-54, None)
 
@@ -147,9 +152,25 @@ def _enumerated(design: str, vary: Vary) -> Array:
     return np.column_stack([np.array(a) for a in axes.values()])
 
 
-def scaled_distances(values: Array, nominal: Sequence[float] | Array) -> Array:
-    """Return a design measured from the nominal case, in units of each parameter's root mean square change, (N, d)."""
-    apart = np.asarray(values) - np.asarray(nominal)
-    size = np.sqrt(np.mean(apart**2, axis=0))
-    scaled: Any = apart / np.where(size > 0, size, 1.0)
-    return np.asarray(scaled)
+def scales(vary: Vary, nominal: Mapping[str, float]) -> Array:
+    """Return the root mean square change of each parameter from its nominal value, 1 where there is none, (d,).
+
+    It depends on what varies alone, not on how many cases there are.
+    """
+    middles = (np.arange(_QUANTILES) + 0.5) / _QUANTILES
+    found = []
+    for name, v in vary.items():
+        values = v.quantiles(middles, nominal[name]) if isinstance(v, Spread) else np.array(v, dtype=float)
+        found.append(math.sqrt(np.mean((values - nominal[name]) ** 2)) or 1.0)
+    return np.array(found)
+
+
+def describe_design(
+    design: str, vary: Vary, nominal: Mapping[str, float], cases: int | None, seed: int
+) -> dict[str, Any]:
+    """Return what decides the values of each case, as plain data; the number of cases where they depend on it."""
+    drawn = {n: asdict(v) if isinstance(v, Spread) else [float(x) for x in v] for n, v in vary.items()}
+    how: dict[str, Any] = {"design": design, "vary": drawn, "nominal": dict(nominal)}
+    if design not in ("grid", "list"):
+        how["seed"] = seed
+    return how if design in EXTENDABLE else {**how, "cases": cases}

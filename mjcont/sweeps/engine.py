@@ -9,9 +9,7 @@ from __future__ import annotations
 import heapq
 import math
 import multiprocessing
-import os
 import signal
-import threading
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import (
@@ -26,11 +24,11 @@ from concurrent.futures import (
 from typing import Any
 
 from mjcont.errors import MjcontError
+from mjcont.outside.processes import end_with_parent, starting
 from mjcont.sweeps.jobs import NOMINAL, Item, run_items
 
 _TASK = 16  # cases in a task, at most
 _DEATHS = 2
-_ONE_THREAD = {n: "1" for n in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
 
 
 class Inline(Executor):
@@ -61,6 +59,15 @@ class Crew:
         """Leave an executor that was given as it is."""
 
 
+class _Pool(ProcessPoolExecutor):
+    """A pool whose processes, which it starts when there are tasks, start as `processes` has it."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Take a task."""
+        with starting():
+            return super().submit(fn, *args, **kwargs)
+
+
 class LocalCrew(Crew):
     """Processes on this machine, one thread each, that end when this one does."""
 
@@ -72,15 +79,8 @@ class LocalCrew(Crew):
 
     def _pool(self) -> Executor:
         context = multiprocessing.get_context("spawn")
-        before = {name: os.environ.get(name) for name in _ONE_THREAD}
-        os.environ.update(_ONE_THREAD)
-        try:
-            pool = ProcessPoolExecutor(self._workers, context, initializer=_end_with_parent)
-            pool.submit(int)  # the first task starts all processes, with the environment of now
-        finally:
-            for name, value in before.items():
-                os.environ.pop(name) if value is None else os.environ.update({name: value})
-        return pool
+        # an interrupt is for the one that hands out the tasks
+        return _Pool(self._workers, context, initializer=end_with_parent, initargs=(signal.SIG_IGN,))
 
     def renew(self) -> None:
         """Start new processes."""
@@ -89,21 +89,10 @@ class LocalCrew(Crew):
 
     def close(self) -> None:
         """Stop the processes without waiting for what they compute."""
+        running = list((getattr(self.executor, "_processes", None) or {}).values())
         self.executor.shutdown(wait=False, cancel_futures=True)
-
-
-def _end_with_parent() -> None:
-    """Let this process end when the one that started it is killed: nobody reads what it computes."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is for the one that hands out the tasks
-    parent = multiprocessing.parent_process()
-    if parent is None:
-        return
-
-    def watch() -> None:
-        parent.join()
-        os._exit(1)
-
-    threading.Thread(target=watch, daemon=True).start()
+        for process in running:  # Python itself would wait for them at its end
+            process.terminate()
 
 
 class Tree:

@@ -25,12 +25,12 @@ from mjcont.errors import MjcontError, ParameterError
 from mjcont.influence.critical import follow_point
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.results.branch import Branch
-from mjcont.results.points import SpecialPoint, special_from_row
-from mjcont.results.provenance import provenance
+from mjcont.results.model import provenance
+from mjcont.results.points import Mark, SpecialPoint
 
 METHODS = ("follow", "trace")
 NOMINAL = -1
-_KEPT = ("kind", "label", "index", "tolerance", "converged", "coefficients", "note", "curve")
+_MARK = ("kind", "label", "index", "tolerance", "converged", "coefficients", "note")
 _HERE = threading.local()  # a Mechanism is not shared between threads
 
 
@@ -62,15 +62,15 @@ def plain_point(point: SpecialPoint) -> dict[str, Any]:
         "parameters": dict(point.parameters),
         "state": [float(x) for x in point.state],
         "free": {n: list(b) for n, b in point.free.items()},
-        **{n: getattr(point, n) for n in _KEPT},
+        **{n: getattr(point, n) for n in (*_MARK, "curve")},
     }
 
 
 def point_of(plain: Mapping[str, Any], mechanism: Mechanism) -> SpecialPoint:
     """Return the special point again, on a mechanism."""
     row = make_point(mechanism, np.array(plain["state"]), mechanism.values(plain["parameters"]), plain["kind"])
-    details = {n: plain[n] for n in _KEPT}
-    return special_from_row(row, **details, free={n: (b[0], b[1]) for n, b in plain["free"].items()})
+    mark = Mark(**{n: plain[n] for n in _MARK})
+    return mark.on(row, {n: (b[0], b[1]) for n, b in plain["free"].items()}, plain["curve"])
 
 
 def describe_model(mechanism: Any, names: Sequence[str], friction: str) -> dict[str, Any]:
@@ -99,9 +99,7 @@ def build(model: Mapping[str, Any]) -> Mechanism:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # said when the sweep was set up
         mechanism = Mechanism.from_xml(model["mjcf"], friction=model["friction"])
-    for name, given in model["declared"].items():
-        if name not in mechanism.parameters:
-            mechanism.declare(name, *given["paths"], unit=given["unit"], bounds=tuple(given["bounds"]))
+    mechanism.declare_again(model["declared"])
     return mechanism
 
 

@@ -1,7 +1,8 @@
 """The journal of a sweep: a file to which the record of each case is appended, safe against a kill at any moment.
 
 The first line says what the sweep is, each further line is the record of one case. Lines are on the disk before the
-next ones are computed from them. A last line that was cut off is dropped when the file is opened again.
+next ones are computed from them. A last line that was cut off is dropped when the file is opened again. Each line is
+a JSON object whose last entry, `sha256`, is the digest of the line without it; journals of older versions have none.
 """
 
 from __future__ import annotations
@@ -9,20 +10,52 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Any, BinaryIO
+from typing import Any
 
-from mjcont.errors import MjcontError, ResultFileError
+from mjcont.errors import MjcontError, ResultFileError, ResultWarning
+from mjcont.outside.saving import flush_folder, write_all
 
-FORMAT = "mjcont sweep journal 1"
+FORMAT = "mjcont sweep journal 2"
+_UNSEALED = "mjcont sweep journal 1"
+_BEGINNING = b'{"format": "mjcont sweep journal'
+_SEAL = re.compile(rb', "sha256": "([0-9a-f]{64})"\}\Z')
+_TYPES = {"case": int, "from": int, "status": str, "message": str, "values": dict, "points": dict}
 _PARTS = {"model": "model", "design": "design", "points": "points, parameters or quantities", "versions": "versions"}
 
 
-def digest(data: Any) -> str:
-    """Return a hash of plain data."""
-    return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
+def sealed_line(record: Mapping[str, Any]) -> bytes:
+    """Return a record as a line with its digest."""
+    text = json.dumps(record).encode()
+    return text[:-1] + b', "sha256": "' + hashlib.sha256(text).hexdigest().encode() + b'"}\n'
+
+
+def read_line(line: bytes, needed: bool) -> dict[str, Any]:
+    """Return the record in a line, its digest checked; `needed` says that it must have one.
+
+    Raises
+    ------
+    ValueError
+        If it is not as it was written.
+    """
+    seal = _SEAL.search(line)
+    if seal is None and needed:
+        raise ValueError("its checksum is missing")
+    if seal is not None:
+        line = line[: seal.start()] + b"}"
+        if hashlib.sha256(line).hexdigest().encode() != seal[1]:
+            raise ValueError("it is not as it was written")
+    try:
+        found = json.loads(line)
+    except RecursionError as error:
+        raise ValueError("it is nested too deeply") from error
+    if not isinstance(found, dict):
+        raise ValueError("it is no object")
+    return found
 
 
 class Journal:
@@ -35,6 +68,8 @@ class Journal:
         What the sweep is: `what` in words; `identity`, the hashes of the parts that must agree.
     begin : callable
         Called for a new file: returns what its first line holds beside that.
+    earlier : mapping, optional
+        Further hashes of a part that an older version may have written for this sweep.
 
     Raises
     ------
@@ -42,69 +77,104 @@ class Journal:
         If the file belongs to another sweep, is damaged before its end, or is being written by another process.
     """
 
-    def __init__(self, path: Path, header: Mapping[str, Any], begin: Callable[[], Mapping[str, Any]]) -> None:
-        self.path, self.header, self._begin = path, dict(header), begin
+    def __init__(
+        self, path: Path, header: Mapping[str, Any], begin: Callable[[], Mapping[str, Any]],
+        earlier: Mapping[str, tuple[str, ...]] | None = None,
+    ) -> None:
+        self.path, self.header, self._begin, self._earlier = path, dict(header), begin, earlier or {}
         self.records: dict[int, dict[str, Any]] = {}
-        self._file: BinaryIO | None = None
+        self._handle = -1
 
     def __enter__(self) -> Journal:
         """Open the file, lock it, and read what is there."""
         try:
-            self._file = self.path.open("a+b")
+            self._handle = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0), 0o666)
         except OSError as error:
-            raise ResultFileError(f"cannot write {self.path}: {error.strerror}") from error
+            raise self._cannot(error) from error
         try:
             self._lock()
             self._read()
         except BaseException:
-            self._file.close()
+            os.close(self._handle)
             raise
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         """Close the file."""
-        assert self._file is not None
-        self._file.close()
+        os.close(self._handle)
+
+    def _cannot(self, error: OSError) -> ResultFileError:
+        return ResultFileError(f"cannot write {self.path}: {error.strerror or error}")
 
     def _lock(self) -> None:
         try:
             import fcntl
         except ImportError:  # Windows
             return
-        assert self._file is not None
         try:
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
             raise ResultFileError(f"{self.path} is being written by another process: wait for that sweep") from error
 
     def _read(self) -> None:
-        assert self._file is not None
-        self._file.seek(0)
-        data = self._file.read()
+        data = self.path.read_bytes()
         whole = data.rfind(b"\n") + 1
+        if not whole and not data.startswith(_BEGINNING[: len(data)]):
+            raise ResultFileError(f"{self.path} is no journal of a sweep: move it away")
         if whole < len(data):
-            self._file.truncate(whole)
-        lines = data[:whole].splitlines()
+            os.ftruncate(self._handle, whole)
+        lines = data[:whole].split(b"\n")[:-1]
         if not lines:
             self.header |= self._begin()
             self._append([{"format": FORMAT, **self.header}])
+            flush_folder(self.path.parent)
             return
+        found = self._header(lines[0])
+        sealed = found["format"] == FORMAT
+        records: dict[int, dict[str, Any]] = {}
+        for number, line in enumerate(lines[1:], 2):
+            record = self._record(line, number, sealed)
+            if record["case"] in records:
+                raise ResultFileError(f"{self.path} is damaged: line {number} has a case that is there already")
+            records[record["case"]] = record
+        if not sealed:
+            warnings.warn(
+                f"{self.path} has no checksums (an older mjcont began it): damage to its numbers would not be noticed",
+                ResultWarning, stacklevel=4,
+            )
+        self.header, self.records = found, records
+
+    def _header(self, line: bytes) -> dict[str, Any]:
+        """Return the first line of a journal that is of this sweep."""
         try:
-            found, *rest = (json.loads(line) for line in lines)
-            if found["format"] != FORMAT:
-                raise ResultFileError(f"{self.path} is no journal of a sweep")
-            theirs, records = found["identity"], {r["case"]: r for r in rest}
-        except (ValueError, KeyError, TypeError) as error:
-            raise ResultFileError(f"{self.path} is no journal of a sweep, or damaged: {error}") from error
-        different = [words for part, words in _PARTS.items() if theirs.get(part) != self.header["identity"][part]]
+            found = read_line(line, needed=False)
+            theirs = found["identity"]
+            if found["format"] not in (FORMAT, _UNSEALED) or (found["format"] == FORMAT and not _SEAL.search(line)):
+                raise ValueError("its first line is none of a journal")
+            different = [w for part, w in _PARTS.items() if theirs[part] not in self._accepted(part)]
+            what = str(found["what"])
+        except (ValueError, LookupError, TypeError) as error:
+            raise ResultFileError(f"{self.path} is no journal of a sweep, or damaged in line 1: {error}") from error
         if different:
             raise ResultFileError(
-                f"{self.path} belongs to another sweep ({found['what']}) than this one ({self.header['what']}): they "
+                f"{self.path} belongs to another sweep ({what}) than this one ({self.header['what']}): they "
                 f"differ in {' and '.join(different)}. Choose another folder, or delete that file to start anew."
             )
-        if len(records) != len(rest):
-            raise ResultFileError(f"{self.path} is damaged: it has a case twice")
-        self.header, self.records = found, records
+        return found
+
+    def _accepted(self, part: str) -> tuple[str, ...]:
+        """Return the hashes of a part with which a journal is this sweep's: now, and as older versions took them."""
+        return (self.header["identity"][part], *self._earlier.get(part, ()))
+
+    def _record(self, line: bytes, number: int, sealed: bool) -> dict[str, Any]:
+        try:
+            record = read_line(line, sealed)
+            for name, kind in _TYPES.items():
+                if not isinstance(record[name], kind):
+                    raise TypeError(f"its {name} is no {kind.__name__}")
+        except (ValueError, LookupError, TypeError) as error:
+            raise ResultFileError(f"{self.path} is damaged in line {number}: {error}") from error
+        return record
 
     def add(self, records: Iterable[Mapping[str, Any]]) -> None:
         """Append records and put them on the disk.
@@ -122,7 +192,10 @@ class Journal:
         self._append(fresh)
 
     def _append(self, records: Iterable[Mapping[str, Any]]) -> None:
-        assert self._file is not None
-        self._file.write(b"".join(json.dumps(r).encode() + b"\n" for r in records))
-        self._file.flush()
-        os.fsync(self._file.fileno())
+        before = os.fstat(self._handle).st_size
+        try:
+            write_all(self._handle, b"".join(map(sealed_line, records)))
+            os.fsync(self._handle)
+        except OSError as error:
+            os.ftruncate(self._handle, before)  # what is there of the line would be in the way of the next
+            raise self._cannot(error) from error

@@ -16,13 +16,14 @@ from mjcont.errors import ParameterError
 from mjcont.influence.critical import check_alone, check_not_own
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.search.spanning import heights, spanning_tree
-from mjcont.results.files import frozen, output_folder
-from mjcont.results.model import units
+from mjcont.outside.saving import output_folder
+from mjcont.outside.sealing import digest
+from mjcont.results.files import frozen
+from mjcont.results.model import provenance, units
 from mjcont.results.points import Column, SpecialPoint
-from mjcont.results.provenance import provenance
 from mjcont.results.sweeps import SweepTable
 from mjcont.sweeps.cluster import make_crew
-from mjcont.sweeps.designs import Spread, Vary, make_design, scaled_distances
+from mjcont.sweeps.designs import Spread, Vary, describe_design, make_design, scales
 from mjcont.sweeps.engine import Run, Tree
 from mjcont.sweeps.jobs import (
     NOMINAL,
@@ -31,8 +32,8 @@ from mjcont.sweeps.jobs import (
     read_quantity,
     write_job,
 )
-from mjcont.sweeps.journal import Journal, digest
-from mjcont.sweeps.plan import Setup, Sweepable, of_points
+from mjcont.sweeps.journal import Journal
+from mjcont.sweeps.plan import Setup, Sweepable, SweepPlan, of_points
 
 Progress = Callable[[int, int, int], None]
 
@@ -64,18 +65,16 @@ def sweep(
         Which parameters (names or paths) vary, and how. Of a study: instead of its own; so are the next four.
     out : path
         A folder for sweep.jsonl (the journal), sweep.csv and sweep.h5.
-    design : {"latin hypercube", "monte carlo", "grid", "list"}
-    cases, seed : of the first two designs.
+    design : {"latin hypercube", "monte carlo", "quasi-random", "grid", "list"}
+    cases, seed : of the first three designs; the second and third go on to more cases when there are more.
     record : sequence of str
         Quantities such as "cusp.F_ul"; default the parameters that each point's defining system solves for.
     limit : int, optional
-        Only so many cases, the first of the design.
+        Only so many cases, the first of the design; with a larger one later the sweep goes on.
     workers : int, optional
         Processes on this machine; default one a processor. With 1, this process itself.
-    executor : concurrent.futures.Executor, optional
-        Instead of them.
-    scheduler : str, optional
-        Instead of them: address of a Dask scheduler.
+    executor, scheduler : concurrent.futures.Executor, and address of a Dask scheduler, optional
+        One of them instead.
     progress : called as progress(done, all, failed).
 
     Returns
@@ -91,7 +90,8 @@ def sweep(
     setup, model = _changed(setup, {"vary": vary, "design": design, "cases": cases, "seed": seed}, record)
     values = _values(setup, limit)
     folder = output_folder(out)
-    with Journal(folder / "sweep.jsonl", _header(setup, model, values), lambda: _begin(setup, model)) as journal:
+    header, earlier = _header(setup, model, values), _earlier(setup, values)
+    with Journal(folder / "sweep.jsonl", header, lambda: _begin(setup, model), earlier) as journal:
         _compute(setup, values, journal, lambda: make_crew(executor, scheduler, workers), progress)
         table = _table(setup, values, journal)
     table.to_csv(folder / "sweep.csv")
@@ -140,16 +140,27 @@ def _check_names(setup: Setup) -> None:
                 raise ParameterError(f"{one.name} and {other.name} act on the same field of the model: name one")
 
 
+def _what(plan: SweepPlan, values: Array) -> str:
+    seeded = f", seed {plan.seed}" if any(isinstance(s, Spread) for s in plan.vary.values()) else ""
+    return f"{plan.design} of {len(values)} cases over {', '.join(plan.vary)}{seeded}"
+
+
+def _earlier(setup: Setup, values: Array) -> dict[str, tuple[str, ...]]:
+    """Return the hash that older versions took of a design: of the values themselves, as many as were asked for."""
+    plan = setup.plan
+    return {"design": (digest([list(plan.vary), values.tolist(), plan.deepest, dict(setup.nominal)]),)}
+
+
 def _header(setup: Setup, model: Mapping[str, Any], values: Array) -> dict[str, Any]:
     plan = setup.plan
+    design = describe_design(plan.design, plan.vary, setup.nominal, plan.cases, plan.seed)
     where = {n: plain_point(p) for n, p in setup.given.items()} if setup.given is not None else [
         [asdict(p) for p in plan.points], [asdict(b) for b in setup.branches]]
-    seeded = f", seed {plan.seed}" if any(isinstance(s, Spread) for s in plan.vary.values()) else ""
     return {
-        "what": f"{plan.design} of {len(values)} cases over {', '.join(plan.vary)}{seeded}",
+        "what": _what(plan, values),
         "identity": {
             "model": digest(model),
-            "design": digest([list(plan.vary), values.tolist(), plan.deepest, dict(setup.nominal)]),
+            "design": digest([design, plan.deepest]),
             "points": digest([where, list(setup.record), plan.method]),
             "versions": digest(provenance(None)),
         },
@@ -183,26 +194,30 @@ def _begin(setup: Setup, model: Mapping[str, Any]) -> dict[str, Any]:
 def _compute(
     setup: Setup, values: Array, journal: Journal, crew_of: Callable[[], Any], progress: Progress | None
 ) -> None:
-    """Compute the cases that the journal does not have."""
-    failed = sum(r["status"] == "failed" for r in journal.records.values())
+    """Compute the cases that the journal does not have; it may have more than are asked for."""
+    count = len(values)
+    done = {case: record for case, record in journal.records.items() if case < count}
+    failed = sum(r["status"] == "failed" for r in done.values())
     tell: Progress = progress or (lambda done, total, failed: None)
-    tell(len(journal.records), len(values), failed)
-    if len(journal.records) == len(values):
+    tell(len(done), count, failed)
+    if len(done) == count:
         return
 
     def store(records: Sequence[Mapping[str, Any]]) -> None:
         nonlocal failed
         journal.add(records)
+        done.update({r["case"]: dict(r) for r in records})
         failed += sum(r["status"] == "failed" for r in records)
-        tell(len(journal.records), len(values), failed)
+        tell(len(done), count, failed)
 
-    parents = np.full(len(values), NOMINAL)
+    parents = np.full(count, NOMINAL)
     if setup.plan.method == "follow":
-        parents = spanning_tree(scaled_distances(values, list(setup.nominal.values())), setup.plan.deepest)
-    tree = Tree(parents.tolist(), heights(parents).tolist(), journal.records)
+        apart = values - np.array(list(setup.nominal.values()))
+        parents = spanning_tree(apart / scales(setup.plan.vary, setup.nominal), setup.plan.deepest)
+    tree = Tree(parents.tolist(), heights(parents).tolist(), done)
     crew = crew_of()
     try:
-        Run(journal.header["job"], values.tolist(), tree, journal.records, crew, store).go()
+        Run(journal.header["job"], values.tolist(), tree, done, crew, store).go()
     finally:
         crew.close()
 
@@ -220,7 +235,7 @@ def _table(setup: Setup, values: Array, journal: Journal) -> SweepTable:
     seed = {"seed": str(setup.plan.seed), "method": setup.plan.method}
     return SweepTable(
         setup.mechanism.name,
-        journal.header["what"],
+        _what(setup.plan, values),
         columns,
         frozen(np.arange(len(rows))),
         frozen(np.array([r["from"] for r in rows])),

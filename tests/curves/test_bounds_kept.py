@@ -16,6 +16,7 @@ from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
+from mjcont.numerics.points.normalform import crossing
 from mjcont.numerics.step.arclength import CurvePoint, Earlier, predict
 from mjcont.numerics.step.hermite import node_windows
 from mjcont.numerics.walk.interior import Gap, fill
@@ -38,6 +39,7 @@ def asked(law: Law, u0: list[float], parameters: dict[str, float], run: Callable
 FOLD: Law = lambda u, p: [p["a"] - u[0] ** 2]  # noqa: E731
 CUBIC: Law = lambda u, p: [p["a"] + u[0] - u[0] ** 3]  # noqa: E731
 PITCHFORK: Law = lambda u, p: [p["a"] * u[0] - u[0] ** 3]  # noqa: E731
+TRANSCRITICAL: Law = lambda u, p: [p["a"] * u[0] - u[0] ** 2]  # noqa: E731
 LOGARITHM: Law = lambda u, p: [math.log(p["a"]) - u[0]]  # noqa: E731
 SPIRAL: Law = lambda u, p: [  # noqa: E731
     p["a"] * u[0] - u[1] - u[0] ** 3, u[0] + p["a"] * u[1] - u[1] ** 3
@@ -66,6 +68,22 @@ def test_no_value_beyond_the_bounds_is_asked_for_along_a_curve(name: str) -> Non
     assert {end[0] for end in branch.ends} == {"at bound"}
     for end in branch["a"][[0, -1]]:
         assert min(abs(end - low), abs(end - high)) <= 1e-14 * (high - low)
+
+
+@pytest.mark.parametrize(("bounds", "at"), [((-1.0, 0.0), 0.0), ((0.0, 1.0), 0.0), ((-1.0, 0.0), -1e-3)])
+@pytest.mark.parametrize(("law", "kind"), [(PITCHFORK, "pitchfork"), (TRANSCRITICAL, "transcritical")])
+def test_branches_through_a_point_on_a_bound_are_told_from_within(
+    law: Law, kind: str, bounds: tuple[float, float], at: float
+) -> None:
+    def run(field: mc.VectorField) -> Any:
+        system = System(field, field.values({"a": at}), [Free("a", *bounds)])
+        slope = system.free[0].slope(at)
+        return crossing(system.local(np.zeros(1), system.start_y()), np.eye(2), np.ones(1), slope)
+
+    found, seen = asked(law, [0.0], {"a": at}, run)
+    assert found.kind == kind
+    assert len(found.tangents) == 2
+    assert bounds[0] <= seen["a"].min() <= seen["a"].max() <= bounds[1]
 
 
 @pytest.mark.parametrize(("low", "folds"), [(-_FOLD - 1e-6, 2), (-_FOLD + 1e-6, 0), (-_FOLD + 1e-4, 0)])

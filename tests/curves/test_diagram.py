@@ -223,3 +223,12 @@ def test_an_unknown_parameter_of_a_diagram_is_named_with_those_that_exist():
 def test_an_unknown_keyframe_of_a_diagram_is_named():
     with pytest.raises(mc.NameLookupError, match="unknown keyframe 'up'"):
         mc.bifurcation_diagram(pitchfork(), "mu", bounds=(-1.0, 1.0), keyframes=["up"])
+
+
+def test_user_zeros_are_located_on_every_branch_of_a_diagram():
+    field = mc.VectorField(lambda u, p: [p["a"] * u[0] - u[0] ** 3], [0.0], {"a": -0.5})
+    diagram = mc.bifurcation_diagram(field, "a", (-1.0, 1.0), zeros={"a": (-0.25, 0.25)})
+    assert len(diagram) == 2
+    assert [sorted(p["a"] for p in b.of_kind("UZ")) for b in diagram] == [
+        pytest.approx([-0.25, 0.25]), pytest.approx([0.25, 0.25])
+    ]

@@ -51,7 +51,7 @@ def test_zero_hopf_coefficients_are_those_of_the_normal_form(s, a, c):
     locus = mc.continue_special(only(zero_hopf_branch(s, a, c), "LP"), "b2", bounds=(-0.6, 0.6))
     point = only(locus, "ZH")
     assert point.coefficients["s"] == s
-    assert point.coefficients["theta"] == pytest.approx(a / 2.0, rel=1e-6)
+    assert point.coefficients["theta"] == pytest.approx(a, rel=1e-6)
 
 
 # mu = nu^2 and mu = 1 - nu

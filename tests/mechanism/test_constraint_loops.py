@@ -56,7 +56,7 @@ def folds(name, closure, stiffness):
     return np.array(sorted((p["crank"] - start, p["M"]) for p in branch.of_kind("LP")))
 
 
-@pytest.mark.parametrize("stiffness", [1e4, pytest.param(1e5, marks=LONG), pytest.param(1e6, marks=LONG), 1e7])
+@pytest.mark.parametrize("stiffness", [1e4, *(pytest.param(k, marks=LONG) for k in (1e5, 1e6, 1e7))])
 @pytest.mark.parametrize("closure", ["native", "bush"])
 @pytest.mark.parametrize("name", LINKAGES)
 def test_folds_are_those_of_the_equations_written_by_hand(name, closure, stiffness):
@@ -72,7 +72,7 @@ def test_folds_with_native_constraints_approach_the_rigid_linkage_at_rate_1_over
     assert np.all(change < [[0.1], [1e-2], [1e-3]])
 
 
-@pytest.mark.parametrize("closure", ["native", "bush"])
+@pytest.mark.parametrize("closure", ["native", pytest.param("bush", marks=LONG)])
 @pytest.mark.parametrize("stiffness", [1e4, pytest.param(1e6, marks=LONG)])
 @pytest.mark.parametrize("name", LINKAGES)
 def test_the_verdicts_on_stability_are_those_of_the_energy(name, closure, stiffness):
@@ -193,6 +193,7 @@ def test_a_weight_on_a_rope_by_a_tendon_equality():
     assert check_folds(text, lambda _: linkage, [1e4, 1e5, 1e6, 1e7], (-2.5, 2.5)) >= 2
 
 
+@pytest.mark.long
 def test_an_arm_welded_to_the_crank():
     # the arm has its place (x, z) and turn; its centre of mass lies off the weld, which therefore bends and turns
     centre, tip = (0.3, 0.2), (0.0, 0.6)

@@ -217,6 +217,7 @@ def test_eigenvalues_are_those_of_the_recompiled_inertia():
         )
 
 
+@pytest.mark.long
 def test_a_branch_in_a_length_of_the_overcentre_agrees_with_the_field_of_its_site():
     cosine, sine = 0.5, math.sqrt(3.0) / 2.0  # the frame of link 1 is turned, a site's field is in the body's
     through_spec, through_field = mc.Mechanism.from_xml("overcentre"), mc.Mechanism.from_xml("overcentre")
@@ -249,6 +250,7 @@ def test_a_branch_that_meets_the_edge_of_what_compiles_ends_there_with_a_sentenc
     assert branch["radius"].max() == pytest.approx(0.025)
 
 
+@pytest.mark.long
 def test_a_branch_with_a_joint_limit_ends_at_the_edge_of_what_compiles():
     text = ROD.format(declarations="", rest=3).replace('name="hip"', 'name="hip" limited="true" range="-90 90"')
     mechanism = mc.Mechanism.from_xml(text)

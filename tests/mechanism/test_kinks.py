@@ -2,6 +2,7 @@
 
 import math
 
+import mujoco
 import numpy as np
 import pytest
 from problems.kinked import CABLE, SLACK, SPRING, cable, slider
@@ -167,3 +168,25 @@ def test_disabled_springs_and_actuators_have_no_kinks():
     assert mc.Mechanism.from_xml(text).nonsmooth
     off = text.replace("<option", '<option><flag spring="disable" actuation="disable"/></option><option')
     assert not mc.Mechanism.from_xml(off).nonsmooth
+
+
+def test_a_corner_is_an_equilibrium_to_the_residual_that_its_row_states():
+    # a bob on a stiff stop, turned by gravity: each corner is a row of the branch, and MuJoCo's own inverse dynamics
+    # ask for no torque there
+    xml = """<mujoco><worldbody><body><joint name="q" axis="0 1 0" stiffness="3" damping="1" limited="true"
+      range="-40 30" solreflimit="-2000 -50"/><geom type="sphere" size=".1" mass="1" pos=".5 0 .3"/></body></worldbody>
+      </mujoco>"""
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml(xml), "gravity_angle", bounds=(-3.1, 3.1))
+    corners = branch.of_kind("CO")
+    assert len(corners) == 4
+    m = mujoco.MjModel.from_xml_string(xml)
+    for corner in corners:
+        d = mujoco.MjData(m)
+        angle = corner["gravity_angle"]
+        m.opt.gravity[:] = -9.81 * np.sin(angle), 0.0, -9.81 * np.cos(angle)
+        d.qpos[:] = corner.state
+        mujoco.mj_inverse(m, d)
+        assert abs(d.qfrc_inverse[0]) < 1e-12
+        assert branch.residuals[corner.index] < 1e-14
+        limit = np.radians(-40.0 if "lower" in corner.note else 30.0)
+        assert corner.state[0] == pytest.approx(limit, abs=1e-9)

@@ -280,8 +280,8 @@ def test_a_start_that_flows_to_no_equilibrium_is_an_error():
 
 def test_dir_shows_what_a_user_may_use_and_no_internals(overcentre):
     assert [n for n in dir(overcentre) if not n.startswith("_")] == [
-        "acceleration", "bushes", "declare", "declared", "difference", "evaluations", "from_model", "from_spec",
-        "from_xml", "keyframes", "linearize", "measure", "mjcf", "n", "name", "notes", "nq", "observable",
-        "observables", "observe", "parameter", "parameters", "pencil", "qpos0", "residual", "retract",
+        "acceleration", "bushes", "copy", "declare", "declared", "difference", "evaluations",
+        "from_model", "from_spec", "from_xml", "keyframes", "linearize", "measure", "mjcf", "n", "name", "notes", "nq",
+        "observable", "observables", "observe", "parameter", "parameters", "pencil", "qpos0", "residual", "retract",
         "simulation_model", "start_state", "state_labels", "state_scale", "values",
     ]

@@ -6,6 +6,7 @@ what is computed with it.
 
 from __future__ import annotations
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -237,3 +238,78 @@ def test_inspect_says_what_is_missing(written, capsys):
 def test_inspect_refuses_a_lost_mass_in_one_line(written, capsys):
     assert main(["inspect", str(written(model(COLLIDING, "")))]) == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+# -- bushes and stiffnesses ------------------------------------------------------------------------------------------
+
+TWO_BARS = """<mujoco model="bars"><asset><mesh name="shell" file="gone.stl"/></asset><worldbody>
+  <body name="left"><joint name="a" axis="0 1 0" damping="1"/>
+    <inertial pos=".5 0 0" mass="1" diaginertia=".1 .1 .1"/><geom type="mesh" mesh="shell"/></body>
+  <body name="right" pos="2 0 0"><joint name="b" axis="0 1 0" damping="1"/>
+    <inertial pos="-.5 0 0" mass="1" diaginertia=".1 .1 .1"/></body></worldbody>
+  <equality><connect name="pin" body1="left" body2="right" anchor="1 0 0"/></equality></mujoco>"""
+GONE = "1 file is not there: gone.stl; 1 geom is left out"
+CONTACTS = "contacts of these geoms are not there: one of body 'left'"
+
+
+def present():
+    return TWO_BARS.replace('<geom type="mesh" mesh="shell"/>', "").replace('<mesh name="shell" file="gone.stl"/>', "")
+
+
+@pytest.fixture
+def bars(tmp_path):
+    (tmp_path / "bars.xml").write_text(TWO_BARS)
+    return tmp_path / "bars.xml"
+
+
+def test_bushes_are_added_without_what_is_missing_and_its_text_stays_as_it_is(bars):
+    with pytest.warns(mc.ModelWarning) as caught:
+        text = mc.bushed_xml(bars, stiffness=1e6)
+    assert [str(w.message) for w in caught] == [GONE, CONTACTS]
+    assert '<mesh name="shell" file="gone.stl"/>' in text
+    assert '<geom type="mesh" mesh="shell"/>' in text
+    mechanism = mc.Mechanism.from_xml(text)
+    assert mechanism.notes == (GONE, CONTACTS)
+    assert mechanism.parameters["k_bush"].value == 1e6
+
+
+@pytest.mark.parametrize("change", [mc.add_bushes, mc.set_constraint_stiffness])
+def test_a_spec_with_bushes_or_stiffness_compiles_without_what_is_missing(bars, change):
+    with pytest.warns(mc.ModelWarning) as caught:
+        spec = change(bars, stiffness=1e6)
+    assert [str(w.message) for w in caught] == [GONE, CONTACTS]
+    mechanism, whole = mc.Mechanism.from_spec(spec), mc.Mechanism.from_spec(change(present(), stiffness=1e6))
+    assert mechanism.notes == (GONE, CONTACTS)
+    x = np.full(mechanism.n, 0.1)
+    np.testing.assert_array_equal(mechanism.residual(x, mechanism.values()), whole.residual(x, whole.values()))
+
+
+def test_what_an_included_text_names_stays_as_it_is(tmp_path):
+    start, end = TWO_BARS.index("<asset>"), TWO_BARS.index("</asset>") + len("</asset>")
+    (tmp_path / "parts.xml").write_text(f"<mujocoinclude>{TWO_BARS[start:end]}</mujocoinclude>")
+    (tmp_path / "bars.xml").write_text(f'{TWO_BARS[:start]}<include file="parts.xml"/>{TWO_BARS[end:]}')
+    with pytest.warns(mc.ModelWarning) as caught:
+        text = mc.bushed_xml(tmp_path / "bars.xml")
+    assert str(caught[0].message) == GONE
+    assert '<mesh name="shell" file="gone.stl"/>' in text and "<include" not in text
+
+
+def test_the_command_bush_says_what_is_missing_and_writes_it_as_it_is(bars, capsys):
+    assert main(["bush", str(bars), "-o", str(bars.with_name("soft.xml"))]) == 0
+    out = capsys.readouterr()
+    assert GONE in out.out + out.err
+    assert 'file="gone.stl"' in bars.with_name("soft.xml").read_text()
+
+
+def test_files_beside_the_model_must_be_beside_the_text_that_is_written(bars, tmp_path, capsys):
+    (tmp_path / "gone.stl").write_text("solid nothing\nendsolid\n")
+    bars.write_text(TWO_BARS.replace("gone.stl", "here.obj"))
+    (tmp_path / "here.obj").write_text(TETRAHEDRON)
+    (tmp_path / "elsewhere").mkdir()
+    assert main(["bush", str(bars), "-o", str(tmp_path / "elsewhere" / "soft.xml")]) != 0
+    assert "files beside the model must be beside it, too" in capsys.readouterr().err
+
+
+def test_a_spec_whose_mesh_is_missing_is_taken_without_it():
+    mechanism = mc.Mechanism.from_spec(mujoco.MjSpec.from_string(TWO_BARS))
+    assert mechanism.notes == (GONE, CONTACTS)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import mjcont as mc
+from mjcont.results.spectra import Spectra
 
 # model: parameter, bounds, start values, keyframe
 CURVES = {
@@ -109,7 +110,7 @@ def test_a_wrong_classification_is_contradicted():
 
 def test_a_wrong_eigenvalue_is_contradicted():
     branch = curve("von_mises_truss")
-    wrong = mc.verify_stability(branch_with(branch, eigenvalues=1.1 * branch.eigenvalues), 4)
+    wrong = mc.verify_stability(branch_with(branch, spectra=Spectra.of(1.1 * branch.eigenvalues)), 4)
     assert len(wrong.certificate.of("contradicted")) == 4
 
 

@@ -92,6 +92,7 @@ def test_a_pendulum_turns_over_past_a_barrier_of_twice_its_weight_times_length(p
     assert barrier.message.endswith("full turns apart")
 
 
+@pytest.mark.long
 def test_the_gear_above_overcentre_is_guarded_by_less_and_less_up_to_fp1():
     gear = mc.Mechanism.from_xml("nose_gear")
     branch = mc.continue_equilibria(gear, "F_ret", bounds=(3e5, 6e5), start={"F_ret": 4e5}, keyframe="uplock_above")

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import copy
 import math
-import pickle
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -82,31 +79,6 @@ def test_eigenvalues_read_late_are_those_of_the_points():
         distance = np.abs(branch.eigenvalues[i][:, None] - expected)
         matched = scipy.optimize.linear_sum_assignment(distance)
         assert distance[matched].max() < 1e-7 * np.abs(expected).max()
-
-
-def test_eigenvalues_are_not_computed_before_they_are_read():
-    mechanism = mc.Mechanism.from_xml("overcentre")
-    branch = mc.continue_equilibria(mechanism, "F", BOUNDS, {"F": START})
-    before = mechanism.evaluations
-    assert branch.eigenvalues.shape == (len(branch), 12)
-    read = mechanism.evaluations
-    assert read > before
-    assert branch.eigenvalues is branch.eigenvalues
-    assert mechanism.evaluations == read
-
-
-def test_a_branch_is_saved_and_copied_with_all_its_eigenvalues(tmp_path):
-    mechanism = mc.Mechanism.from_xml("overcentre")
-    branch = mc.continue_equilibria(mechanism, "F", BOUNDS, {"F": START})
-    loaded = mc.load(branch.save(tmp_path / "branch.h5"))
-    assert np.array_equal(loaded.eigenvalues, branch.eigenvalues)
-    assert np.array_equal(copy.copy(branch).eigenvalues, branch.eigenvalues)
-
-
-def test_a_branch_without_its_problem_is_pickled_with_all_its_eigenvalues():
-    branch = replace(branch_of("overcentre"), problem=None, special_points=())
-    kept = pickle.loads(pickle.dumps(branch))
-    assert np.array_equal(kept.eigenvalues, branch.eigenvalues)
 
 
 # -- nothing is missed -----------------------------------------------------------------------------------------

@@ -9,11 +9,14 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
+import numpy as np
 import pytest
 from problems.shaken_paper import PAPER, SHIPPED
 from problems.shaken_problems import PROBLEMS
 from problems.shaking import shaken
 from problems.signatures import Signature, differences, signature
+
+import mjcont as mc
 
 JOBS = {**PROBLEMS, **PAPER, **{f"study {name}": job for name, job in SHIPPED.items()}}
 SEEDS = range(10)
@@ -58,3 +61,14 @@ def test_a_signature_tells_a_lost_point_from_a_moved_one() -> None:
     lost = {name: value for name, value in plain.items() if "LP2" not in name}
     assert any("LP2" in sentence for sentence in differences(plain, lost))
     assert differences(plain, plain) == []
+
+
+def test_a_start_comes_to_the_same_rest_under_noise() -> None:
+    gear = mc.Mechanism.from_xml("nose_gear_locking")
+    load = {"gravity_angle": np.radians(-20.0), "F_ul": -500.0, "F_ret": 2.5e5}
+    rest = mc.find_equilibrium(gear, load, keyframe="uplock_below")
+    assert rest.stability == "stable"
+    for seed in SEEDS:
+        with shaken(seed):
+            found = mc.find_equilibrium(gear, load, keyframe="uplock_below")
+        assert found["theta_ov"] == pytest.approx(rest["theta_ov"], abs=1e-8)

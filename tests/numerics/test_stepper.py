@@ -221,6 +221,11 @@ def test_zeros_of_an_observable_are_located_to_1e_10():
     assert point["x"] ** 2 * (point["x"] ** 3 - point["x"]) == pytest.approx(-0.2, abs=1e-9)
 
 
+def test_a_column_may_have_several_values_to_be_located_at():
+    points = marked_cusp(x=(-0.5, 0.25, 0.5)).of_kind("UZ")
+    assert sorted(p["x"] for p in points) == pytest.approx([-0.5, 0.25, 0.5], abs=1e-10)
+
+
 def test_zeros_exactly_at_zero_are_found():
     points = marked_cusp(x=0.0).of_kind("UZ")
     assert [p["x"] for p in points] == pytest.approx([0.0], abs=1e-10)

@@ -127,10 +127,11 @@ def cost(name):
     return problem.evaluations, len(branch)
 
 
-# evaluations in all, and per point: 15 % above the median of what five kernels of OpenBLAS cost when they were set.
+# evaluations in all, and per point: 15 % above the median of what five kernels of OpenBLAS cost when they were set; the
+# places where a brusselator's eigenvalues might stray between points (`Balance`) are 14 % of its own, 2,465 in all.
 # Rounding decides how many Newton steps a special point takes at the noise floor, 117 evaluations each for a Hopf point
 # of `ab` (from 3,890 to 4,475 in all).
-CEILINGS = {"ab": (4866, 44.2), "brusselator": (2503, 29.8), "overcentre": (4050, 4.74)}
+CEILINGS = {"ab": (4866, 44.2), "brusselator": (2835, 34.2), "overcentre": (4050, 4.81)}
 
 
 @pytest.mark.parametrize("name", CEILINGS)
@@ -206,7 +207,7 @@ def test_a_state_of_the_wrong_size_is_refused():
 
 def test_a_start_without_an_equilibrium_is_an_error_that_says_where_it_looked():
     field = scalar(lambda x, p: 1.0 + p["mu"] ** 2 + x**2, 0.0, mu=0.0)
-    with pytest.raises(mc.StartError, match="no equilibrium found from the model's initial pose"):
+    with pytest.raises(mc.StartError, match="no equilibrium found from u0"):
         mc.continue_equilibria(field, "mu", bounds=(-1.0, 1.0))
 
 

@@ -50,7 +50,7 @@ def is_told(refused):
 UNDEFINED = [Bad(kind, n, s) for kind in ("nan", "infinite") for n in (1, 2, 3) for s in (False, True)]
 
 
-@pytest.mark.parametrize("name", ["newton.correct", "newton.solve", "newton.find_start", "creep.creep"])
+@pytest.mark.parametrize("name", ["newton.correct", "newton.solve", "starts.find_start", "creep.creep"])
 def test_a_solver_without_a_value_of_f_fails_with_a_sentence(name):
     with np.errstate(all="ignore"):
         assert all(is_told(CASES[name](bad).failure) for bad in UNDEFINED)

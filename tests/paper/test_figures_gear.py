@@ -144,6 +144,7 @@ def test_spread_is_relative_to_the_largest_magnitude():
     assert _loci.spread([-4.0, -5.0, -4.5]) == pytest.approx(0.2)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("load_factor", "force", "unlock"), [(0.5, 0.356, 0.050), (1.0, 0.355, 0.097), (2.5, None, 0.207)]
 )
@@ -169,6 +170,7 @@ def findings_hold(figure, out):
     return len(findings)
 
 
+@pytest.mark.long
 def test_findings_of_figure_14(tmp_path):
     assert findings_hold("14", tmp_path) == 7
 

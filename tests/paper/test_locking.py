@@ -197,6 +197,7 @@ def test_weak_unlock_forces_open_the_lock_at_a_fold_strong_ones_at_the_corner(st
         assert point["F_ret"] == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.long
 def test_a_displaced_gear_returns_to_its_rest_on_or_off_the_stop(stopped, locked):
     rests = [p for force in (0.0, 2e5, 4e5, 5e5, 6e5) for p in locked.at(F_ret=force)]
     aside = np.array([0.0, 0.0, 0.0, 1e-3, -1e-3])

@@ -108,6 +108,7 @@ def test_the_command_ends_with_a_status_of_its_own_where_a_figure_failed(scripts
     assert cli.main(["reproduce", "1", "-o", str(tmp_path)]) == 0
 
 
+@pytest.mark.long
 def test_a_failed_figure_is_drawn_again_the_next_time(scripts, tmp_path):
     (scripts / "fig01.py").write_text(BAD)
     assert reproduce([1], tmp_path, say=quiet).failed == [1]
@@ -156,6 +157,7 @@ def test_the_report_covers_figures_of_earlier_runs(scripts, tmp_path):
     assert "## Figure 1: a line\n" in (tmp_path / "report.md").read_text()
 
 
+@pytest.mark.long
 def test_a_record_that_was_cut_short_is_drawn_again(scripts, tmp_path):
     reproduce([1], tmp_path, say=quiet)
     record = tmp_path / "fig01.json"

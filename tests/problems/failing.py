@@ -11,15 +11,25 @@ from scipy import sparse
 
 import mjcont as mc
 from mjcont.curves.walkers import equilibrium_detectors
-from mjcont.numerics.equations import adjoint, algebra, bordered, defining, differences, newton, settings, system
+from mjcont.numerics.equations import (
+    adjoint,
+    algebra,
+    bordered,
+    defining,
+    differences,
+    newton,
+    settings,
+    starts,
+    system,
+)
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Pencil
 from mjcont.numerics.equations.refusals import Refused
-from mjcont.numerics.points import codim2, corner, events, kinds, normalform, on_equilibria, on_loci
+from mjcont.numerics.points import balance, codim2, corner, events, kinds, looking, normalform, on_equilibria, on_loci
 from mjcont.numerics.search import box, coordinates, creep, deflation, multistart, spanning
-from mjcont.numerics.spectra import spectrum, stability
+from mjcont.numerics.spectra import spectrum, stability, tracks
 from mjcont.numerics.step import arclength, hermite, notes, turning
-from mjcont.numerics.walk import between, filled, interior, longsteps, onebyone, trace
+from mjcont.numerics.walk import between, filled, interior, kinks, longsteps, onebyone, trace
 from mjcont.numerics.walk.steps import End
 
 FIELDS = {
@@ -178,6 +188,7 @@ CASES = {
     "arclength.by_contraction": lambda b: arclength.by_contraction(b.point()),
     "arclength.turned_back": lambda b: arclength.turned_back(b.system, [b.point()]),
     "arclength.land": lambda b: arclength.land(b.system, b.point(), 0, 0.5, 0.1, b.settings),
+    "arclength.land_beside": lambda b: arclength.land_beside(b.system, b.point(), 0, 0.5, b.settings),
     "arclength.aim": lambda b: arclength.aim(b.system, b.point(), 0.1, np.zeros(b.n + 1), steady=True),
     "turning.may_turn_beyond": lambda b: turning.may_turn_beyond(b.system, *b.pair),
     "between.rows_between": lambda b: None if b.sparse else between.rows_between(b.system, b.pair, 1e-6),
@@ -205,6 +216,7 @@ CASES = {
     "corner.loaded_at": lambda b: corner.loaded_at(b.system, b.point()),
     "corner.describe": lambda b: corner.describe(frozenset(), frozenset()),
     "corner.cross": lambda b: corner.cross(b.system, b.point(), b.settings),
+    "corner.break_off": lambda b: corner.break_off(b.system, b.point()),
     "corner.CornerDetector": lambda b: b.located([corner.CornerDetector(b.system, b.settings)]),
     "creep.rates": lambda b: creep.rates(b.local),
     "creep.creep": lambda b: creep.creep(b.problem, b.x, b.values, most=20),
@@ -231,6 +243,10 @@ CASES = {
     "differences.length_of": lambda b: differences.length_of(b.x, b.v),
     "differences.directional": lambda b: differences.directional(b.problem, b.x, b.values, 0.0 * b.v, 3),
     "differences.combine": lambda b: differences.combine(lambda rows: rows, b.v, 2, 1e-2),
+    "differences.settled_combine": lambda b: [
+        differences.settled_combine(lambda rows, fill=fill: np.full((len(rows), b.n), fill), b.v, 2, 1e-2)
+        for fill in (0.0, math.nan, math.inf)
+    ],
     "differences.second_form": lambda b: differences.second_form(b.problem, b.x, b.values, b.v, 0.0 * b.v),
     "differences.bilinear_gradient": lambda b: differences.bilinear_gradient(b.problem, b.x, b.values, b.x, b.x),
     "on_equilibria.square_system": lambda b: on_equilibria.square_system(b.system, [b.fold()], b.corrected),
@@ -244,7 +260,6 @@ CASES = {
     ),
     "on_equilibria.BranchPointDetector": lambda b: b.located([on_equilibria.BranchPointDetector(b.system, b.settings)]),
     "on_equilibria.HopfDetector": lambda b: b.located([on_equilibria.HopfDetector(b.system, b.settings)]),
-    "on_equilibria.MultipleDetector": lambda b: b.located([on_equilibria.MultipleDetector(b.system, b.settings)]),
     "events.bisect": lambda b: events.bisect(b.system, *b.pair, lambda p, q: True, lambda p, q: None, b.settings),
     "events.within": lambda b: events.within(b.system, *b.pair, b.corrected),
     "events.between": lambda b: events.between(b.system, b.point(), b.point(), 0.5),
@@ -253,6 +268,9 @@ CASES = {
     "events.zero_fraction": lambda b: [events.zero_fraction(*v) for v in ((0.0, 0.0), (math.nan, 1.0))],
     "events.point_at": lambda b: events.point_at(b.system, b.point(), b.point(), b.corrected, 0.0),
     "events.ZeroDetector": lambda b: b.located([on_equilibria.fold_detector(b.system, b.settings)]),
+    "looking.look": lambda b: looking.look(
+        b.system, *b.pair, equilibrium_detectors(b.system, b.settings, {}), b.settings
+    ),
     "events.ScalarZero": lambda b: b.condition(lambda: events.ScalarZero(lambda x, values: math.nan)),
     "filled.Filled": lambda b: filled_step(b),  # noqa: PLW0108
     "hermite.lagrange": lambda b: hermite.lagrange([], 0.0),
@@ -270,6 +288,9 @@ CASES = {
     "kinds.found_on": lambda b: kinds.found_on(""),
     "kinds.holds_eigenvalues": lambda b: kinds.holds_eigenvalues(""),
     "kinds.name_of": lambda b: kinds.name_of(""),
+    "kinks.across": lambda b: kinks.across(b.system, b.point(), 0.0, b.settings),
+    "kinks.broken_off": lambda b: kinks.broken_off(b.system, b.point()),
+    "kinks.at_bound": lambda b: kinks.at_bound(b.system, 0, math.nan).message,
     "longsteps.LongSteps": steps_without_points,
     "notes.Note": lambda b: notes.Note().get(b.point()),
     "onebyone.OneByOne": walk,
@@ -290,9 +311,11 @@ CASES = {
     "newton.undefined": lambda b: newton.undefined(b.system),
     "newton.correct": lambda b: newton.correct(b.system, b.x, b.y, b.point().tangent, None, b.settings),
     "newton.solve": lambda b: newton.solve(system.System(b.problem, b.values, ()), b.x, np.zeros(0)),
-    "newton.find_start": lambda b: newton.find_start(b.problem, b.x, b.values),
+    "newton.solve_linear": lambda b: newton.solve_linear(b.local.raw_jac, b.v),
+    "starts.find_start": lambda b: starts.find_start(b.problem, b.x, b.values),
     "normalform.fold_coefficient": lambda b: normalform.fold_coefficient(b.local, b.x, b.x),
     "normalform.cusp_coefficient": lambda b: normalform.cusp_coefficient(b.local, b.x, b.x),
+    "normalform.lyapunov_and_error": lambda b: normalform.lyapunov_and_error(b.problem, b.x, b.values, 0.0),
     "normalform.first_lyapunov": lambda b: normalform.first_lyapunov(b.problem, b.x, b.values, 0.0),
     "normalform.eigenvectors": lambda b: normalform.eigenvectors(np.zeros((b.n, b.n)), math.nan),
     "normalform.double_zero_coefficients": lambda b: normalform.double_zero_coefficients(b.problem, b.x, b.values),
@@ -301,6 +324,14 @@ CASES = {
     "normalform.FirstOrder": lambda b: normalform.FirstOrder(b.problem, b.x, b.values).second(b.v, 1j * b.v),
     "spanning.spanning_tree": lambda b: spanning.spanning_tree(np.zeros((0, 2)), 3),
     "spanning.heights": lambda b: spanning.heights(np.zeros(0, dtype=int)),
+    "balance.Balance": lambda b: balance.Balance(b.system, b.settings).pieces(*b.pair),
+    "balance.multiple": lambda b: balance.multiple(balance.Piece(*b.pair, 2)),
+    "tracks.motion_at": lambda b: tracks.motion_at(b.point()),
+    "tracks.meetings": lambda b: [tracks.meetings(pair, 0) for pair in (b.pair, (b.point(), b.point()))],
+    "tracks.interpolated": lambda b: [tracks.interpolated(pair, 0) for pair in (b.pair, (b.point(), b.point()))],
+    "tracks.tracks": lambda b: [tracks.tracks(pair, 0) for pair in (b.pair, (b.point(), b.point()))],
+    "tracks.Tracks": lambda b: tracks.Tracks(*6 * [np.full(b.n, math.nan)]).meetings(),
+    "spectrum.companion": lambda b: spectrum.companion(*vars_of(pencil(b))),
     "spectrum.spectrum": lambda b: (spectrum.spectrum(b.local.pencil), spectrum.spectrum(pencil(b))),
     "spectrum.symmetric": lambda b: spectrum.symmetric(np.full((b.n, b.n), math.nan)),
     "spectrum.quadratic_eigenvalues": lambda b: spectrum.quadratic_eigenvalues(*vars_of(pencil(b))),
@@ -326,14 +357,17 @@ CASES = {
 }
 # records without a computation of their own, and the guard, which has a test below
 PLAIN = {
+    "clock.TimeUp", "clock.allowance", "clock.check", "clock.expired", "clock.limited", "clock.unlimited",
+    "trace.time_up",
     "arclength.Earlier", "arclength.CurvePoint", "between.Between", "box.Minimum", "coordinates.Slot", "creep.Crept",
     "events.Found", "events.Located", "events.Detector", "guard.raise_unexpected",
     "guard.guarded", "interior.Interior", "interior.Gap", "kinds.Kind", "multistart.Runs",
-    "newton.Corrected", "newton.Start",
+    "newton.Corrected", "starts.Start",
     "normalform.Crossing", "notes.Noted", "problem.Equations", "problem.Linearization", "problem.Pencil",
     "problem.Stencil", "problem.Varied", "refusals.Refused", "refusals.Why", "settings.Settings",
     "settings.check_numbers", "settings.make_settings",
     "spectrum.Spectrum", "steps.Status", "steps.End", "steps.Step", "steps.Neutral", "steps.Leap",
+    "balance.Piece", "tracks.Modes", "tracks.Motion", "tracks.Meeting",
     "free.Free", "system.Local", "system.Condition", "trace.Trace",
 }  # fmt: skip
 BAD = [Bad(kind, n, s) for kind in FIELDS for n in (1, 2) for s in (False, True)]

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import mjcont as mc
+from mjcont.results.spectra import Spectra
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +56,8 @@ def test_every_array_comes_back_to_the_bit(branch, saved, field):
 def test_eigenvalues_that_a_row_does_not_have_come_back_as_missing(branch, tmp_path):
     eigenvalues = np.array(branch.eigenvalues)
     eigenvalues[3, 5:] = complex(math.nan, math.nan)
-    loaded = mc.load(dataclasses.replace(branch, eigenvalues=eigenvalues).save(tmp_path / "short.h5"))
+    short = dataclasses.replace(branch, spectra=Spectra.of(eigenvalues))
+    loaded = mc.load(short.save(tmp_path / "short.h5"))
     assert len(loaded.row(3).eigenvalues) == 5
     assert np.array_equal(loaded.eigenvalues, eigenvalues, equal_nan=True)
 
@@ -121,6 +123,15 @@ def test_results_of_a_compiled_model_are_loaded_with_the_problem(tmp_path):
     assert mc.load(path, problem=mechanism).at(F=52.0)[0]["F"] == 52.0
     with pytest.raises(mc.MjcontError, match=r"loaded without its problem: mc\.load\(path, problem=\.\.\.\)"):
         mc.load(path).at(F=52.0)
+
+
+def test_a_file_that_does_not_carry_its_model_has_all_eigenvalues(tmp_path):
+    text = mc.Mechanism.from_xml("overcentre").mjcf
+    mechanism = mc.Mechanism.from_model(mujoco.MjModel.from_xml_string(text))
+    branch = mc.continue_equilibria(mechanism, "F", bounds=(45.0, 55.0), start={"F": 50.0})
+    loaded = mc.load(branch.save(tmp_path / "compiled.h5"))
+    assert not np.isnan(loaded.eigenvalues).any()
+    assert np.array_equal(loaded.eigenvalues, branch.eigenvalues)
 
 
 @pytest.mark.parametrize("field", ["states", "eigenvalues", "stability", "n_unstable", "residuals"])

@@ -117,6 +117,16 @@ WRONG = {
     "repeated name": ('name = "map"', 'name = "Fold"', ["maps[0].name: 'Fold' is the name of loci[0] already"]),
     "picture twice": ('"all.png"', '"map.png"', ["plot[0].file: 'map.png' is the file of maps[0] already"]),
     "name of a part": ('"barrier"', '"ways_2"', ["barriers[0].name: 'ways_2' is what a branch of the diagram 'ways'"]),
+    "name of a part before it": (
+        'name = "found"',
+        'name = "ways_1"',
+        ["searches[0].name: 'ways_1' is what a branch of the diagram 'ways'"],
+    ),
+    "name of a sweep's table": (
+        'name = "map"',
+        'name = "Sweep"\n[sweep]\n[[nothing]]',
+        ["maps[0].name: 'Sweep' is what the table of the study's sweep is called"],
+    ),
     "negative step": (
         'from = "found"',
         'from = "found"\nsettings = { ds = -1 }',

@@ -180,6 +180,7 @@ def test_shapes_have_their_values_and_extremes(
     assert shape.extremes == pytest.approx((min(series), max(series)), abs=1e-9)
 
 
+@pytest.mark.long
 def test_a_path_a_certificate_and_a_barrier_are_stored_and_drawn(tmp_path: Path) -> None:
     branch, path, certificate, barrier = run(
         tmp_path,

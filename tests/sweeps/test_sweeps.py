@@ -1,6 +1,5 @@
 """Sweeps: designs against closed forms, every case against the point traced afresh, and nothing lost when killed."""
 
-import json
 import multiprocessing
 import os
 import signal
@@ -12,52 +11,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.sparse.csgraph import minimum_spanning_tree
-from scipy.spatial.distance import cdist
+from problems.variants import STUDY, records, same, study
 
 import mjcont as mc
 from mjcont.commands.cli import main
 from mjcont.numerics.search.spanning import heights, spanning_tree
-from mjcont.studies.study import Study
-from mjcont.sweeps import engine
 from mjcont.sweeps.designs import make_design
 from mjcont.sweeps.engine import Crew, Run, Tree
 
-STUDY = """
-model = "overcentre"
-[[branch]]
-name = "equilibria"
-parameter = "F"
-bounds = [-50, 50]
-start = { F = 50, k_j = 1000 }
-[sweep]
-cases = 12
-seed = 3
-record = ["fold.F", "fold.theta_1"]
-[[sweep.point]]
-name = "fold"
-branch = "equilibria"
-label = "LP1"
-[sweep.vary]
-k_j = { lognormal = "10 %" }
-gravity_angle = { uniform = "2 deg" }
-load_factor = { "truncated normal" = "2 %" }
-"""
 GEAR = Path(__file__).parent.parent.parent / "studies" / "gear_cusp_tolerances.toml"
-
-
-def study(folder: Path, text: str = STUDY) -> Study:
-    path = folder / "study.toml"
-    path.write_text(text, encoding="utf-8")
-    return mc.load_study(path)
-
-
-def records(folder: Path) -> list[dict]:
-    return [json.loads(line) for line in (folder / "sweep.jsonl").read_text().splitlines()[1:]]
-
-
-def same(one: Path, other: Path) -> bool:
-    return all((one / f).read_bytes() == (other / f).read_bytes() for f in ("sweep.csv", "sweep.h5"))
 
 
 # -- designs and trees -----------------------------------------------------------------------------------------
@@ -100,16 +62,32 @@ def test_a_grid_has_every_combination_and_a_list_its_rows() -> None:
     assert make_design("list", vary, {}).tolist() == [[1, 10], [2, 20]]
 
 
-def test_without_a_limit_of_depth_the_tree_is_the_minimum_spanning_tree() -> None:
+def test_each_point_of_a_tree_hangs_on_the_nearest_before_it() -> None:
     points = np.random.default_rng(0).normal(size=(60, 4))
-    parents = spanning_tree(points, 1000)
     everything = np.vstack([np.zeros(4), points])
-    length = sum(np.linalg.norm(points[i] - everything[p + 1]) for i, p in enumerate(parents))
-    assert length == pytest.approx(minimum_spanning_tree(cdist(everything, everything)).sum(), rel=1e-12)
+    for i, parent in enumerate(spanning_tree(points, 1000)):
+        assert parent + 1 == np.argmin(np.linalg.norm(everything[: i + 1] - points[i], axis=1))
+
+
+def test_the_tree_of_the_first_points_is_the_beginning_of_that_of_more() -> None:
+    points = np.random.default_rng(0).normal(size=(60, 4))
+    np.testing.assert_array_equal(spanning_tree(points, 4)[:25], spanning_tree(points[:25], 4))
+
+
+@pytest.mark.parametrize("design", ["monte carlo", "quasi-random"])
+def test_the_first_cases_of_a_larger_design_are_those_of_a_smaller_one(design: str) -> None:
+    vary, nominal = {"a": mc.Spread("normal", 3.0), "b": mc.Spread("uniform", 1.0)}, {"a": 5.0, "b": 0.0}
+    few, many = (make_design(design, vary, nominal, cases=n, seed=2) for n in (5, 40))
+    np.testing.assert_array_equal(many[:5], few)
+
+
+def test_a_quasi_random_design_of_a_power_of_two_has_one_value_in_each_stratum() -> None:
+    values = make_design("quasi-random", {"a": mc.Spread("uniform", 1.0)}, {"a": 0.0}, cases=64, seed=3)
+    assert sorted(np.floor((values[:, 0] + 1.0) / 2.0 * 64)) == list(range(64))
 
 
 def test_no_point_of_a_tree_is_deeper_than_the_limit() -> None:
-    parents = spanning_tree(np.arange(1.0, 41.0)[:, None], 5)  # in a row: the minimum spanning tree is a chain
+    parents = spanning_tree(np.arange(1.0, 41.0)[:, None], 5)  # in a row: the nearest is the last
     depth = {-1: 0}
     for i in np.argsort(parents, kind="stable"):
         depth[int(i)] = depth[int(parents[i])] + 1
@@ -170,43 +148,6 @@ def test_a_table_is_read_as_it_was_stored_and_drawn(tmp_path: Path) -> None:
     assert sum(patch.get_height() for patch in axes.patches) == 12
     assert axes.get_xlabel() == "fold.theta_1 [deg]"
     assert table.plot("fold.F", "k_j").collections[0].get_offsets().shape == (12, 2)
-
-
-# -- journals --------------------------------------------------------------------------------------------------
-
-
-def test_a_journal_cut_anywhere_is_resumed_to_the_same_table(tmp_path: Path) -> None:
-    asked = study(tmp_path)
-    mc.sweep(asked, out=tmp_path / "whole", workers=1)
-    journal = (tmp_path / "whole" / "sweep.jsonl").read_bytes()
-    head = journal.index(b"\n") + 1
-    for cut in (head, head + 40, (head + len(journal)) // 2, len(journal) - 1):
-        folder = tmp_path / str(cut)
-        folder.mkdir()
-        (folder / "sweep.jsonl").write_bytes(journal[:cut])
-        mc.sweep(asked, out=folder, workers=1)
-        assert same(folder, tmp_path / "whole")
-        assert sorted(r["case"] for r in records(folder)) == list(range(12))
-
-
-def test_a_sweep_that_is_done_computes_nothing_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = study(tmp_path)
-    first = mc.sweep(asked, out=tmp_path, workers=1)
-    monkeypatch.setattr(engine, "run_items", None)
-    np.testing.assert_array_equal(mc.sweep(asked, out=tmp_path, workers=1)["fold.F"], first["fold.F"])
-
-
-def test_another_sweep_in_the_same_folder_is_refused(tmp_path: Path) -> None:
-    mc.sweep(study(tmp_path), out=tmp_path, limit=2, workers=1)
-    with pytest.raises(mc.ResultFileError, match=r"another sweep \(latin hypercube of 2 .* differ in design"):
-        mc.sweep(study(tmp_path), out=tmp_path, limit=3, workers=1)
-    with pytest.raises(mc.ResultFileError, match="differ in points, parameters or quantities"):
-        mc.sweep(study(tmp_path), out=tmp_path, limit=2, record=["fold.F"], workers=1)
-
-
-def test_a_comment_in_the_study_makes_no_other_sweep(tmp_path: Path) -> None:
-    mc.sweep(study(tmp_path), out=tmp_path, limit=2, workers=1)
-    assert len(mc.sweep(study(tmp_path, STUDY + "# a remark\n"), out=tmp_path, limit=2, workers=1)) == 2
 
 
 # -- workers that die ------------------------------------------------------------------------------------------

@@ -33,7 +33,6 @@ _SLOW_TIME = 0.1
 # rates below this, in 1/s, count as it: their squares are numbers still
 _SLOWEST = 1e-150
 _UNFOLDED = 1e-6
-_GENERIC = np.array([0.8, 0.6])
 
 
 class Fold(Condition):
@@ -174,18 +173,15 @@ class Hopf(Condition):
     def _prepare(self, local: Local, square: float) -> None:
         """Choose time and row scales and borders for the point at hand.
 
-        Of the two-dimensional null space of the block matrix that q = q0 + s q1 is taken whose q0 is largest; it
-        generates the others over the algebra, also for k = 0. Likewise the left vector p = w1 + s w0. The borders
-        are the conjugates (s -> -s) of q and p, or themselves where s is real: c'q and b'p are then units.
+        Of the two-dimensional null space of the block matrix that q = q0 + s q1 is taken which generates the others
+        over the algebra best; likewise the left vector p = w1 + s w0. The borders are the conjugates (s -> -s) of q
+        and p, or themselves where s is real: c'q and b'p are then units.
         """
         self.inner = self._time_scale(local, square)
         self.rows = self._row_scale(local)
         n, k = local.problem.n, square / self.inner / self.inner
         v, w = null_vectors(self._block(local, k), 2)
-        if k >= 0:
-            v, w = v @ singular(v[:n])[2][0], w @ singular(w[n:])[2][0]
-        else:  # a vector with parts along both real eigenvectors
-            v, w = v @ _GENERIC, w @ _GENERIC
+        v, w = v @ _generator(v[:n], v[n:], k), w @ _generator(w[n:], w[:n], k)
         sign = -1.0 if k >= 0 else 1.0
         self.c0, self.c1, self.b0, self.b1 = v[:n], sign * v[n:], w[n:], sign * w[:n]
 
@@ -235,6 +231,21 @@ class Hopf(Condition):
     def exists(self, aux: Array) -> bool:
         """Whether it is no neutral saddle."""
         return self.square(aux) > 0.0
+
+
+def _generator(even: Array, odd: Array, k: float) -> Array:
+    """Return the combination (2,) of null vectors even + s odd, both (n, 2), that is farthest from a zero divisor.
+
+    For k >= 0 that with the largest even part. R[s]/(s^2 + k), k = -a^2 < 0, has zero divisors: what vanishes at s = a
+    or at s = -a. The vectors there are multiples of one real eigenvector each, and half way between the combinations
+    for which one or the other multiple is largest both are large; as k vanishes it becomes the first choice.
+    """
+    if k >= 0.0:
+        return np.asarray(singular(even)[2][0])
+    a = float(np.sqrt(-k))
+    one, other = (singular(even + s * odd)[2][0] for s in (a, -a))
+    middle = one + other if one @ other >= 0.0 else one - other
+    return np.asarray(middle / np.linalg.norm(middle))
 
 
 def dense_pencil(local: Local) -> tuple[Array, Array, Array]:

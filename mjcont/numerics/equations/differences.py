@@ -72,6 +72,9 @@ def jacobian_from_rows(rows: Array, scale: Array, rule: Stencil) -> Array:
     return np.ascontiguousarray(columns.T)
 
 
+# part of its step to which a higher derivative is narrowed where f is smooth in pieces
+_SMALLEST = 1e-4
+
 # Sixth-order stencils in t for f(x + t v): values at t = -3h..3h.
 NODES = np.array([-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0])
 FIRST = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
@@ -90,9 +93,15 @@ def length_of(v: Array, scale: Array) -> float:
 def directional(problem: Equations, x: Array, values: Values, v: Array, order: int, step: float = 1e-2) -> Array:
     """Return the `order`-th derivative (1, 2 or 3) of f along v at x, sixth order, (n,).
 
-    The step is `step` of the coordinates' scale for the largest component of v.
+    The step is `step` of the coordinates' scale for the largest component of v, smaller where f is smooth in pieces
+    and one of them is smaller.
     """
-    return combine(lambda rows: problem.residuals(x, values, rows), v, order, step / length_of(v, problem.state_scale))
+    h, smallest = step / length_of(v, problem.state_scale), _SMALLEST * step / length_of(v, problem.state_scale)
+    while True:
+        found = combine(lambda rows: problem.residuals(x, values, rows), v, order, h)
+        if h <= smallest or len(set(problem.pieces)) <= 1:
+            return found
+        h *= 0.25
 
 
 def combine(f: Callable[[Array], Array], v: Array, order: int, h: float) -> Array:
@@ -100,6 +109,44 @@ def combine(f: Callable[[Array], Array], v: Array, order: int, h: float) -> Arra
     nodes, weights = {1: (NODES, FIRST), 2: (NODES, SECOND), 3: (_NODES9, _THIRD)}[order]
     rows = f((nodes * h)[:, None] * v)
     return weights @ rows / np.float64(h) ** order  # a power of Python's own raises where it overflows
+
+
+# weights of lower orders on the nodes of `combine`, by the order of the derivative: of fourth and of second order
+_LOWER = {
+    1: (np.array([0.0, 1.0, -8.0, 0.0, 8.0, -1.0, 0.0]) / 12.0, np.array([0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0]) / 2.0),
+    2: (
+        np.array([0.0, -1.0, 16.0, -30.0, 16.0, -1.0, 0.0]) / 12.0,
+        np.array([0.0, 0.0, 1.0, -2.0, 1.0, 0.0, 0.0]),
+    ),
+    3: (
+        np.array([0.0, 1.0, -8.0, 13.0, 0.0, -13.0, 8.0, -1.0, 0.0]) / 8.0,
+        np.array([0.0, 0.0, -1.0, 2.0, 0.0, -2.0, 1.0, 0.0, 0.0]) / 2.0,
+    ),
+}
+_SHORTER, _ROUNDS, _SMALL = 0.3, 8, 1e-7
+# rounding in parts of f, and how many times larger a derivative is than that leaves of it, to be told from zero
+_ROUNDING, _TOLD = 1e-15, 1e2
+
+
+def settled_combine(f: Callable[[Array], Array], v: Array, order: int, h: float) -> tuple[Array, float]:
+    """Return `combine` with a step that suits f, and its relative error, zero where rounding alone is left.
+
+    What an order of two more changes falls from order to order by a factor, by which the last change falls once more.
+    """
+    best, least, relative = np.zeros(0), np.inf, 0.0
+    nodes, weights = {1: (NODES, FIRST), 2: (NODES, SECOND), 3: (_NODES9, _THIRD)}[order]
+    for _ in range(_ROUNDS):
+        rows = f((nodes * h)[:, None] * v)
+        sixth, fourth, second = (w @ rows / np.float64(h) ** order for w in (weights, *_LOWER[order]))
+        size, last, first = (float(np.abs(a).max()) for a in (sixth, sixth - fourth, fourth - second))
+        noise = _ROUNDING * float(np.abs(rows).max()) / h**order
+        error = last * min(1.0, last / max(first, 1e-300))
+        if not best.size or error < least:
+            best, least, relative = sixth, error, max(error, noise) / size if size > _TOLD * noise else 0.0
+        if not (noise < error <= least and error > _SMALL * size):
+            break
+        h *= _SHORTER
+    return best, relative
 
 
 def second_form(problem: Equations, x: Array, values: Values, u: Array, v: Array, step: float = 1e-2) -> Array:
@@ -119,7 +166,8 @@ def bilinear_gradient(
     """Return the gradient in scaled x of w . (df/dx) v, (n,): 4 n + 7 evaluations.
 
     Centred differences, whose error with stiff bushes is about k step^2, replaced along v itself by the sixth-order
-    w . B(v, v): a null vector v is the direction in which a curve of folds or a Newton step to a fold moves.
+    w . B(v, v): a null vector v is the direction in which a curve of folds or a Newton step to a fold moves. Columns
+    whose points straddle a kink of f are one-sided, to first order.
     """
     n, scale = problem.n, problem.state_scale
     length = length_of(v, scale)
@@ -128,7 +176,34 @@ def bilinear_gradient(
     f = problem.residuals(x, values, np.concatenate([e + dv, e - dv, -e + dv, -e - dv])) @ w
     pp, pm, mp, mm = f.reshape(4, n)
     gradient = (pp - pm - mp + mm) / (4.0 * step * (step / length))
+    if len(set(problem.pieces)) > 1:
+        rows = np.array(problem.pieces).reshape(4, n).T
+        _one_sided_gradient(problem, x, values, w, dv, gradient, rows, (f.reshape(4, n), step, step / length))
     u = v / scale
     exact = float(w @ directional(problem, x, values, v, 2))
     found: Array = gradient + (exact - gradient @ u) / (u @ u) * u
     return found
+
+
+def _one_sided_gradient(
+    problem: Equations,
+    x: Array,
+    values: Values,
+    w: Array,
+    dv: Array,
+    gradient: Array,
+    rows: Array,
+    known: tuple[Array, float, float],
+) -> None:
+    """Replace the entries of a gradient whose points, `rows` (n, 4) by their pieces, do not all lie on that of x.
+
+    `known` are w . f at the points, (4, n), and the steps along a coordinate and along v.
+    """
+    f, step, along = known
+    ahead, back, _ = problem.residuals(x, values, np.array([dv, -dv, np.zeros_like(dv)])) @ w
+    here = problem.pieces[2]
+    for j in np.flatnonzero(np.any(rows != here, axis=1)):
+        if np.all(rows[j, :2] == here):  # both points beyond +e_j
+            gradient[j] = (f[0, j] - f[1, j] - ahead + back) / (2.0 * step * along)
+        elif np.all(rows[j, 2:] == here):
+            gradient[j] = (ahead - back - f[2, j] + f[3, j]) / (2.0 * step * along)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from scipy import sparse
 from mjcont.numerics.equations.algebra import least_squares
 from mjcont.numerics.equations.algebra import solve as solve_dense
 from mjcont.numerics.equations.bordered import Factored, border
-from mjcont.numerics.equations.problem import Array, Equations, Values
+from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
@@ -26,6 +26,11 @@ LARGEST_ERROR = 1e-7
 _LARGEST_STEP = 2.0
 _DIVERGED = Refused(Why.DIVERGED, "the corrector diverged")
 _NEWTON_DIVERGED = Refused(Why.DIVERGED, "Newton's method diverged")
+_STANDS_STILL = Refused(Why.UNSETTLED, "the corrector stands still")
+# a step that was to be the last and is followed by one so many times longer did not lead to the curve
+_JUMPS = 10.0
+# chord steps that differ by less are the same one again; how often it is lengthened, and how far points may be lifted
+_SAME_STEP, _TIMES, _LIFT = 0.1, 10, 5e-4
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,23 +121,35 @@ def correct(
     lu: Factored | None,
     settings: Settings,
     expected: float = np.inf,
+    reach: float = np.inf,
+    local: Local | None = None,
 ) -> Corrected:
     """Return to the curve from a prediction, moving orthogonally to `row`.
 
     Broyden steps from `lu` while they contract, renewed derivatives when they do not; a last Newton step with
     derivatives at the solution takes the point to the noise floor. `expected` is the contraction of the first step
-    with `lu`, where the last points tell it: one step may then be enough.
+    with `lu`, where the last points tell it: one step may then be enough. A point farther than `reach` from the
+    prediction would be refused. `local` is the evaluation at the prediction, where there is one.
     """
-    size, ratio = np.inf, 0.0
+    size, ratio, tol = np.inf, 0.0, settings.tol
     failure: Refused | None = Refused(Why.UNSETTLED, "the corrector did not converge")
-    tol = settings.tol
-    local, iterations = system.local(x, y), 0
-    steps: list[Array] = []
+    local, iterations = local or system.local(x, y), 0
+    steps, creeps = list[Array](), False
+    chord: Array | None = None
     while iterations < settings.max_corrections:
         iterations += 1
         if lu is None:
-            lu, steps = Factored(matrix_with_row(system, local, y, row)), []
-        step = _broyden(_newton_step(system, local, y, lu, row)[0], steps)
+            lu, steps, chord = Factored(matrix_with_row(system, local, y, row)), [], None
+        before, chord = chord, _newton_step(system, local, y, lu, row)[0]
+        same = before is not None and length(chord - before) <= _SAME_STEP * length(before)
+        if same and system.problem.nonsmooth:
+            if creeps:
+                failure = _STANDS_STILL
+                break
+            x, y, local = _crept(system, x, y, chord, lu, row, reach)
+            creeps, chord, steps, size = True, None, [], np.inf
+            continue
+        step = _broyden(chord, steps)
         last, size = size, length(step)
         if not size < _LARGEST_STEP:
             failure = _DIVERGED if np.isfinite(size) else undefined(system)
@@ -141,33 +158,61 @@ def correct(
         x, y = system.move(x, y, step)
         local = system.local(x, y)
         rate, most = (expected, _FIRST) if iterations == 1 else (ratio, _LATER)
-        if size <= tol or (rate > 0.0 and size <= most * tol and size * rate <= 0.1 * tol):
-            failure = None
-            break
-        if ratio > _SLOW and size <= _NOISE and iterations > 2:  # as close as the noise of f allows
-            failure = None
-            break
+        converged = size <= tol or (rate > 0.0 and size <= most * tol and size * rate <= 0.1 * tol)
+        if converged or (ratio > _SLOW and size <= _NOISE and iterations > 2):  # as close as the noise of f allows
+            found = _polished(system, x, y, local, row, size, tol)
+            if found is not None:
+                return replace(found, iterations=iterations, contraction=ratio)
+            steps = []
+            continue
         if ratio > _DIVERGING:
             failure = _DIVERGED
             break
         steps.append(step)
         if ratio > _SLOW and len(steps) > 2:
             lu = None
-    if failure is not None:
-        return Corrected(x, y, local, lu, iterations, ratio, size, np.inf, failure)
-    for _ in range(_POLISH):  # derivatives are to be those of the point itself
+    return Corrected(x, y, local, lu, iterations, ratio, size, np.inf, failure)
+
+
+def _polished(
+    system: System, x: Array, y: Array, local: Local, row: Array, size: float, tol: float
+) -> Corrected | None:
+    """Return a point taken to the noise floor by Newton steps with derivatives of its own, after a step of a size.
+
+    None where f is smooth in pieces and the point lies on another piece than the curve, so that they lead away.
+    """
+    before = size
+    for k in range(_POLISH):  # derivatives are to be those of the point itself
         jac = system.jacobian(local, y)
         factored = Factored(with_row(jac, row))
         step, _ = _newton_step(system, local, y, factored, row)
-        x, y = system.move(x, y, step)
         last, size = size, length(step)
+        if not k and size > _JUMPS * max(before, tol) and system.problem.nonsmooth:
+            return None
+        x, y = system.move(x, y, step)
         if size <= tol:
             break
         local = system.local(x, y)
     error = system.error(local, x, y)
-    if not error < LARGEST_ERROR:
-        failure = Refused(Why.STALLED, "the corrector stalled away from the curve")
-    return Corrected(x, y, local, factored, iterations, ratio, size, error, failure, jac, size / max(last, 1e-300))
+    failure = None if error < LARGEST_ERROR else Refused(Why.STALLED, "the corrector stalled away from the curve")
+    return Corrected(x, y, local, factored, 0, 0.0, size, error, failure, jac, size / max(last, 1e-300))
+
+
+def _crept(
+    system: System, x: Array, y: Array, chord: Array, lu: Factored, row: Array, reach: float
+) -> tuple[Array, Array, Local]:
+    """Return (x, y) moved by as many chord steps as leave the next one the same, four times as many each time.
+
+    A prediction that lifts a stiff contact off by many times its yield is brought back by that yield in each step: a
+    contact that is open has no force, however far it is open. Points farther than `reach` away are of no use.
+    """
+    for k in range(_TIMES):
+        x, y = system.move(x, y, 4.0**k * chord)
+        local = system.local(x, y)
+        following = _newton_step(system, local, y, lu, row)[0]
+        if length(following - chord) > _SAME_STEP * length(chord) or 4.0**k * length(chord) > min(reach, _LIFT):
+            break
+    return x, y, local
 
 
 def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int = 25, reach: float = 0.5) -> Corrected:
@@ -206,85 +251,9 @@ def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int =
     return Corrected(x, y, local, factored, iteration, ratio, best, system.error(near, x, y), failure)
 
 
-@dataclass(frozen=True, slots=True)
-class Start:
-    """An equilibrium reached from a guess: how, how far away, the residual there, and why it is none."""
-
-    x: Array
-    method: str
-    distance: float
-    error: float
-    failure: Refused | None = None
-
-
-def find_start(problem: Equations, x0: Array, values: Values) -> Start:
-    """Return the equilibrium that `x0` belongs to: by Newton if it is near, else the one it flows to.
-
-    Far from an equilibrium pseudo-transient steps (M/dt + K) dx = f follow the damped motion with growing dt.
-    """
-    system = System(problem, values, ())
-    no_y = np.zeros(0)
-    near = solve(system, x0, no_y, most=8, reach=0.1)
-    if not near.failure:
-        distance = float(np.linalg.norm(system.difference(near.x, no_y, x0, no_y)))
-        if distance < 0.1:
-            return Start(near.x, "newton", distance, near.error)
-    x, failure = _pseudo_transient(system, x0)
-    if failure is not None:
-        return Start(x, "pseudo-transient", np.inf, np.inf, failure)
-    final = solve(system, x, no_y, most=20, reach=0.2)
-    distance = float(np.linalg.norm(system.difference(final.x, no_y, x0, no_y)))
-    return Start(final.x, "pseudo-transient", distance, final.error, final.failure)
-
-
-def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array, Refused | None]:
-    """Follow M x' = f by linearly implicit steps whose length grows while the motion is smooth."""
-    problem, no_y = system.problem, np.zeros(0)
-    scale = problem.state_scale
-    local = system.local(x, no_y)
-    mass = _mass_like(local)
-    dt = _first_dt(local, mass)
-    for _ in range(most):
-        dx = _solve(mass / dt - local.raw_jac, local.f)
-        size = float(np.max(np.abs(dx) / scale))
-        if not np.isfinite(size) or size > 0.2:
-            dt *= 0.25
-            if dt < 1e-14:
-                sentence = "the motion from the start could not be followed: steps became too short"
-                return x, Refused(Why.DIVERGED, sentence)
-            continue
-        x = problem.retract(x, dx)
-        local = system.local(x, no_y)
-        newton = _solve(-local.raw_jac, local.f)
-        if size < 1e-3 and np.max(np.abs(newton) / scale) < 1e-9:
-            return x, None
-        dt *= 2.0 if size < 0.1 else 1.0
-    if np.abs(local.f).max() <= 1e-9 * abs(local.raw_jac).max() * np.max(scale):
-        sentence = "the motion from the start came to rest, but equilibria are not isolated there: K is singular"
-    else:
-        sentence = f"the motion from the start had not come to rest after {most} steps"
-        sentence += ": it may drift or have no equilibrium"
-    return x, Refused(Why.UNSETTLED, sentence)
-
-
-def _solve(matrix: Any, rhs: Array) -> Array:
+def solve_linear(matrix: Any, rhs: Array) -> Array:
+    """Return the solution of a linear system, dense or sparse; where it is singular the shortest of the nearest."""
     if sparse.issparse(matrix):
         return Factored(matrix).solve(rhs)
     found = solve_dense(matrix, rhs)
     return found if np.isfinite(found).all() else least_squares(matrix, rhs)
-
-
-def _mass_like(local: Local) -> Any:
-    """Return the mass matrix, or the identity for a first-order system (sparse where its Jacobian is)."""
-    if sparse.issparse(local.raw_jac):
-        return sparse.identity(local.problem.n, format="csc")
-    pencil = local.pencil
-    return np.eye(local.problem.n) if pencil.mass is None else pencil.mass
-
-
-def _first_dt(local: Local, mass: Any) -> float:
-    """Return a step over which the fastest motion is well resolved."""
-    stiffest = abs(local.raw_jac).max(axis=1)
-    stiffest = stiffest.toarray().ravel() if sparse.issparse(stiffest) else stiffest
-    fast = np.max(stiffest / np.maximum(np.abs(mass.diagonal()), 1e-300))
-    return max(float(1.0 / max(fast, 1e-12)), 1e-300)

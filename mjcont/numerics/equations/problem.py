@@ -36,11 +36,13 @@ class Linearization:
     f : (n,) residual.
     jac : (n, n) df/dx, dense or scipy.sparse.
     par : (n, k) df/dp for the k parameters asked for.
+    piece : the smooth piece of f on which the point lies.
     """
 
     f: Array
     jac: Matrix
     par: Array
+    piece: bytes = b""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +97,7 @@ class Equations(ABC):
 
        - `passive` (and `pencils`): stability by the inertia of K, eigenvalues when they are read;
        - `side_by_side`, `linearize_along`: long steps with points inside, rows between points;
-       - `nonsmooth` and `active`: corners are found and crossed;
+       - `nonsmooth`, `pieces` and `active`: corners are found and crossed;
        - `periods`: curves that close full turns apart end there;
        - `admissible`: predictions leave out motions that the problem holds.
 
@@ -186,6 +188,11 @@ class Equations(ABC):
         return False
 
     @property
+    def pieces(self) -> Sequence[bytes]:
+        """On which smooth piece of f each row of the last evaluation lies; empty where f is smooth."""
+        return ()
+
+    @property
     def failure(self) -> str:
         """Why f had no value where it was evaluated last, a clause; empty where nothing is known."""
         return ""
@@ -242,6 +249,10 @@ class Equations(ABC):
         """Return the names of the rigid-body motions that no force opposes near a state, of all or `among` some."""
         del x, values, among
         return ()
+
+    def holds_straight(self) -> bool:
+        """Whether modes are held along which coordinates change in proportion, and no others."""
+        return False
 
     def rigid_directions(self, x: Array) -> dict[str, Array]:
         """Return the tangent vectors (n,) along the held rigid-body modes, by name."""

@@ -34,7 +34,8 @@ class Settings:
         Size of a corrector step at which it has converged (one more Newton step always follows).
     max_corrections : int
         Corrector iterations before a step is given up.
-    max_points, max_arclength, max_seconds : limits of one direction; rows between points do not count.
+    max_points, max_arclength : limits of one direction; rows between points do not count.
+    max_seconds : limit of all that is computed, the start (if it is not near) and both directions together.
     chord : float
         Largest distance of straight lines between the rows of a branch from the curve, where rows between its points
         are cheap: along a control of a mechanism without contacts, limits or friction. Infinity adds none. It has no

@@ -32,7 +32,9 @@ _BATCHES = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
 class Local:
     """What is known of the problem at one (x, p): computed on demand, once."""
 
-    __slots__ = ("_jac", "_lin", "_pencil", "_residual", "accurate", "problem", "ranges", "values", "wrt", "x")
+    __slots__ = (
+        "_jac", "_lin", "_pencil", "_piece", "_residual", "accurate", "problem", "ranges", "values", "wrt", "x",
+    )
 
     def __init__(
         self, problem: Equations, x: Array, values: Values, wrt: Sequence[str], accurate: bool, ranges: Ranges = ()
@@ -43,6 +45,7 @@ class Local:
         self._lin: Linearization | None = None
         self._pencil: Pencil | None = None
         self._residual: Array | None = None
+        self._piece: bytes | None = None
 
     @property
     def f(self) -> Array:
@@ -52,6 +55,16 @@ class Local:
         if self._residual is None:
             self._residual = self.problem.residual(self.x, self.values)
         return self._residual
+
+    @property
+    def piece(self) -> bytes:
+        """The smooth piece of f on which the point lies; the same everywhere where f is smooth."""
+        if self._lin is not None:
+            return self._lin.piece
+        if self._piece is None:
+            self._residual = self.problem.residual(self.x, self.values)
+            self._piece = next(iter(self.problem.pieces), b"")
+        return self._piece
 
     def keep(self, residual: Array) -> None:
         """Take the residual, (n,), computed elsewhere."""
@@ -195,6 +208,10 @@ class System:
         for p, u in zip(self.free, y.tolist(), strict=False):
             merged[p.name] = p.value(u)
         return merged
+
+    def where(self, y: Array) -> str:
+        """Return the free parameters at y as a sentence shows them."""
+        return ", ".join(f"{p.name} = {p.show(p.value(u))}" for p, u in zip(self.free, y.tolist(), strict=False))
 
     def local(self, x: Array, y: Array) -> Local:
         """Return the evaluation at (x, y)."""

@@ -14,7 +14,7 @@ r_i' = 0 on a reference orbit r (Doedel, Lecture Notes on Numerical Analysis of 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -66,7 +66,7 @@ class Blocks:
 class OrbitLinearization(Linearization):
     """The equations of an orbit and their derivatives, with the blocks from which they are put together."""
 
-    blocks: Blocks
+    blocks: Blocks = field(kw_only=True)
 
 
 class Orbits(Equations):
@@ -217,7 +217,7 @@ class Orbits(Equations):
             for k, name in enumerate(wrt):
                 par[:, k] += self.flow.period_rate(values, name) * over_period
         jac = self.assembled(blocks, over_period)
-        return OrbitLinearization(self._equations(p, r.value), jac, par, blocks)
+        return OrbitLinearization(self._equations(p, r.value), jac, par, blocks=blocks)
 
     def _blocks(self, p: Path, rates: Array, jac: Array) -> Blocks:
         """Return the derivatives from the rates (N, m, c) and theirs (N, m, c, d)."""

@@ -32,7 +32,7 @@ _ON_AXIS, _RESONANT = 1e-3, 1e-3
 # along a vertical family the parameter does not move, and multipliers stay at 1, but for rounding
 _VERTICAL, _ON_CIRCLE = 1e-9, 1e-7
 _OTHER_BRANCH = Refused(Why.OTHER_BRANCH, "the orientation changes without a branch point: another branch is near")
-_UNSEEN = Refused(Why.OVERSEEN, "multipliers pass the unit circle and no point is found where they do")
+_UNSEEN = Refused(Why.CROWDED_POINTS, "multipliers pass the unit circle and no point is found where they do")
 _RESONANCES = {1: 0.0, 2: math.pi, 3: 2.0 * math.pi / 3.0, 4: math.pi / 2.0}
 
 
@@ -132,7 +132,7 @@ class Crossing:
         if (p - q) % 2 == 0 and abs(a - b) <= through_one and (abs(a - b) - through_one) % 2 == 0:
             return Found()
         if through_one:  # two kinds of points in one step: each gets its own
-            return Refused(Why.OVERSEEN, "several points lie in one step") if new.s - old.s > 1e-6 else Found()
+            return Refused(Why.CROWDED_POINTS, "several points lie in one step") if new.s - old.s > 1e-6 else Found()
         result = bisect(self.system, old, new, self.crossed, self._settle, self.settings)
         return _UNSEEN if result is None else Found([result])
 

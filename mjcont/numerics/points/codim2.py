@@ -1,6 +1,6 @@
 """Normal-form coefficients of zero-Hopf and double Hopf points.
 
-    zero-Hopf    s = sign(G200 G011), theta = Re G110 / G200
+    zero-Hopf    s = sign(G200 G011), theta = 2 Re G110 / G200
     double Hopf  p11, p22, theta = p12 / p22, delta = p21 / p11
 
 with G200 = <p0, B(q0, q0)>, G011 = <p0, B(q1, q1*)>, G110 = <p1, B(q0, q1)>, and p_jk the real parts of the cubic
@@ -46,7 +46,7 @@ def zero_hopf_coefficients(problem: Equations, x: Array, values: Values, omega: 
     ]
     if missing:
         return {"omega": omega, "s": math.nan, "theta": math.nan}, f"{_degenerate(missing)}: no s, no theta"
-    return {"omega": omega, "s": float(np.sign(g200 * g011)), "theta": g110.real / g200}, ""
+    return {"omega": omega, "s": float(np.sign(g200 * g011)), "theta": 2.0 * g110.real / g200}, ""
 
 
 def double_hopf_coefficients(

@@ -27,6 +27,8 @@ _MOST_BISECTIONS = 40
 _OUTSIDE = 1e-6
 # a test that grows by this while its sign change is bracketed has a pole there
 _POLE = 3.0
+# what remains of a test at a zero, in parts of its values at the ends of the step in which it is found
+_VANISHES = 1e-3
 
 
 @dataclass(slots=True)
@@ -184,7 +186,8 @@ class ZeroDetector:
 
     `solve` follows a point near a zero to the zero itself and returns it with the system that it solves, from which
     `finish` has data and a note, or None where it is no such point after all. A test that `counts` changes by whole
-    numbers. `fraction` tells better than a linear function through the test's values where in a step a zero lies.
+    numbers. `fraction` tells better than a linear function through the test's values where in a step a zero lies. With
+    `vanishes` a zero counts where the test itself is far smaller than at the ends of the step.
     """
 
     kind: str
@@ -196,6 +199,7 @@ class ZeroDetector:
     counts: bool = False
     structural: bool = False
     fraction: Callable[[CurvePoint, CurvePoint], float] | None = None
+    vanishes: bool = False
     _note: Note[float] = field(default_factory=Note, init=False)
 
     def crossed(self, old: CurvePoint, new: CurvePoint) -> bool:
@@ -225,11 +229,14 @@ class ZeroDetector:
             s = None if c.failure is not None else within(self.system, old, new, c)
             if s is None:
                 return None
+        point = point_at(self.system, old, new, c, s)
+        if self.vanishes and not abs(self.test(point)) <= _VANISHES * largest:
+            return None
         done = self.finish(c, full)
         if done is None:
             return None
         data, note = done
-        return Located(self.kind, point_at(self.system, old, new, c, s), c.step, True, data, note)
+        return Located(self.kind, point, c.step, True, data, note)
 
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found:
         """Return the zero between the points, if there is one; a pole is none."""

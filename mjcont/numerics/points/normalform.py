@@ -21,9 +21,24 @@ from scipy import sparse
 
 from mjcont.numerics.equations.algebra import least_squares, singular, solve
 from mjcont.numerics.equations.bordered import oriented
-from mjcont.numerics.equations.differences import FOURTH_ORDER, combine, jacobian_from_rows, jacobian_steps, second_form
+from mjcont.numerics.equations.differences import (
+    FOURTH_ORDER,
+    combine,
+    jacobian_from_rows,
+    jacobian_steps,
+    second_form,
+    settled_combine,
+)
 from mjcont.numerics.equations.problem import Array, Equations, Values
 from mjcont.numerics.equations.system import Local
+
+# second derivatives of fourth order, as nodes and weights: centred, and to one side
+_SECOND = np.arange(-2.0, 3.0), np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
+_SECOND_ASIDE = np.arange(6.0), np.array([45.0, -154.0, 214.0, -156.0, 61.0, -10.0]) / 12.0
+# a coefficient counts as zero below this, for amplitudes of the state's scale and in the time of the oscillation
+_DEGENERATE = 1e-9
+# relative errors of differences from which on a coefficient is computed again with other steps
+_POOR = 1e-6
 
 
 def fold_coefficient(local: Local, v: Array, w: Array) -> float:
@@ -56,12 +71,22 @@ def _bordered_solve(jac: Any, w: Array, v: Array, rhs: Array) -> Array:
 
 
 class FirstOrder:
-    """The first-order form around an equilibrium, with multilinear forms by sixth-order differences."""
+    """The first-order form around an equilibrium, with multilinear forms by sixth-order differences.
 
-    def __init__(self, problem: Equations, x: Array, values: Values) -> None:
+    They are differences of df/dx where the problem computes that itself, else of f, with steps shortened until their
+    error, as differences of lower orders through the same places tell it, is small or grows by rounding.
+
+    Attributes
+    ----------
+    error : the largest of these errors so far, relative to the form.
+    """
+
+    def __init__(self, problem: Equations, x: Array, values: Values, *, shorter: float = 1.0) -> None:
         self._f = partial(problem.first_order, x, values)
+        self._problem, self._x, self._values, self._shorter = problem, x, values, shorter
         scale = problem.state_scale
         self.scale = np.concatenate([scale, scale]) if problem.second_order else scale
+        self.error = 0.0
 
     def jacobian(self) -> Array:
         """Return the Jacobian of the first-order form."""
@@ -76,8 +101,16 @@ class FirstOrder:
         length = self.size(v)
         if length == 0.0:
             return np.zeros(len(v))
-        step = {2: 1e-2, 3: 2e-2}[order]
-        return combine(self._f, v / length, order, step) * np.float64(length) ** order
+        own = self._problem.own_jacobian and not self._problem.second_order
+        function = partial(self._slopes, v / length) if own else self._f
+        found, error = settled_combine(function, v / length, order - own, self._shorter * {2: 1e-2, 3: 2e-2}[order])
+        self.error = max(self.error, error)
+        return found * np.float64(length) ** order
+
+    def _slopes(self, v: Array, rows: Array) -> Array:
+        """Return J v at steps (m, n), from the problem's own Jacobian."""
+        at = (self._problem.retract(self._x, row) for row in rows)
+        return np.array([self._problem.linearize(x, self._values, ()).jac @ v for x in at])
 
     def second(self, u: Array, v: Array) -> Array:
         """Return B(u, v) for complex vectors."""
@@ -107,11 +140,26 @@ class FirstOrder:
 
 
 def first_lyapunov(problem: Equations, x: Array, values: Values, omega: float) -> float:
-    """Return l1 at a Hopf point of frequency omega.
+    """Return l1 at a Hopf point of frequency omega, zero where rounding alone is left of it.
 
     |q| = 1 in the unknowns of a first-order problem, in the positions of a second-order one.
     """
+    return lyapunov_and_error(problem, x, values, omega)[0]
+
+
+def lyapunov_and_error(problem: Equations, x: Array, values: Values, omega: float) -> tuple[float, float]:
+    """Return `first_lyapunov` and its relative error: where differences seem poor, what half the steps change."""
     form = FirstOrder(problem, x, values)
+    found = _lyapunov(form, problem, omega)
+    if not form.error > _POOR:
+        return found, form.error
+    half = FirstOrder(problem, x, values, shorter=0.5)
+    again = _lyapunov(half, problem, omega)
+    best = again if half.error < form.error else found
+    return best, abs(again - found) / max(abs(best), 1e-300) if again != found else 0.0
+
+
+def _lyapunov(form: FirstOrder, problem: Equations, omega: float) -> float:
     jac = form.jacobian()
     q, p = eigenvectors(jac, omega)
     if problem.second_order:
@@ -125,7 +173,8 @@ def first_lyapunov(problem: Equations, x: Array, values: Values, omega: float) -
     h11 = solve(jac, b)
     h20 = solve(2j * omega * identity - jac, form.second(q, q))
     total = c - 2.0 * form.second(q, h11) + form.second(q.conj(), h20)
-    return float(np.real(np.vdot(p, total)) / (2.0 * omega))
+    found = float(np.real(np.vdot(p, total)) / (2.0 * omega))
+    return 0.0 if abs(found) < _DEGENERATE * form.size(q) ** 2 else found
 
 
 def eigenvectors(jac: Array, omega: float) -> tuple[Array, Array]:
@@ -188,13 +237,19 @@ def crossing(local: Local, kernel: Array, w: Array, slope: float) -> Crossing:
     name = local.wrt[0]
     problem, value = local.problem, local.values[name]
 
+    low, high = (local.ranges[0] if local.ranges else None) or (-math.inf, math.inf)
+
     def along(direction: Array) -> float:
-        nodes, h = np.arange(-2.0, 3.0), 5e-3
-        weights = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
+        h, rate = 5e-3, slope * float(direction[-1])
+        nodes, weights = _SECOND
+        reach = h * abs(rate) * nodes.max()
+        if not low <= value - reach <= value + reach <= high:  # on a bound, which the parameter does not leave
+            nodes, weights = _SECOND_ASIDE
+            h = math.copysign(h, rate if high - value > value - low else -rate)
         total = 0.0
         for t, weight in zip(nodes * h, weights, strict=True):
             x = problem.retract(local.x, t * direction[:-1] * problem.state_scale)
-            total += weight * float(w @ problem.residual(x, {**local.values, name: value + t * slope * direction[-1]}))
+            total += weight * float(w @ problem.residual(x, {**local.values, name: value + t * rate}))
         return total / h**2
 
     p0, p1 = kernel.T

@@ -192,7 +192,7 @@ def _generalised_hopf(system: System, hopf: Hopf, settings: Settings) -> ZeroDet
             return None
         return {"omega": float(np.sqrt(square)), "l1": lyapunov_at(c.local)}, ""
 
-    return ZeroDetector("GH", system, test, solve_with, finish, settings)
+    return ZeroDetector("GH", system, test, solve_with, finish, settings, vanishes=True)
 
 
 def unfolding_stop(system: System) -> Callable[[CurvePoint], str | None]:

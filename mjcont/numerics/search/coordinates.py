@@ -153,7 +153,10 @@ def with_turns(
     states: Array,
     residuals: Callable[[Array], Array],
 ) -> tuple[Slot, ...]:
-    """Return the slots with a period where a full turn of an angle leaves f as it is at all of `states`."""
+    """Return the slots with a period where a full turn of an angle leaves f as it is at all of `states`.
+
+    Their largest f must be more than rounding, so they are not to be equilibria all.
+    """
     base = residuals(states)
     found = []
     for s in slots:

@@ -10,10 +10,10 @@ from mjcont.numerics.equations.problem import Array
 
 
 def spanning_tree(points: Array, deepest: int) -> Array:
-    """Return the parent of each point in a short spanning tree whose root is the origin, itself no point.
+    """Return the parent of each point in a spanning tree whose root is the origin, itself no point.
 
-    Prim's algorithm, with points at the depth `deepest` as leaves: without that limit it is the minimum spanning tree.
-    The first of several equal distances counts, so that the tree is a function of the points alone.
+    Each point hangs on the nearest of the origin and the points before it, points at the depth `deepest` left out; the
+    first of several equal distances counts. So the tree of the first points is the beginning of that of more.
 
     Parameters
     ----------
@@ -28,18 +28,12 @@ def spanning_tree(points: Array, deepest: int) -> Array:
     """
     count = len(points)
     parents, depth = np.full(count, -1), np.ones(count, dtype=int)
-    near, left = np.einsum("ij,ij->i", points, points), np.ones(count, dtype=bool)
-    for _ in range(count):
-        i = int(np.argmin(np.where(left, near, math.inf)))
-        left[i] = False
-        if parents[i] >= 0:
-            depth[i] = depth[parents[i]] + 1
-        if depth[i] >= deepest:
-            continue
-        apart = points - points[i]
-        distance = np.einsum("ij,ij->i", apart, apart)
-        closer = left & (distance < near)
-        near[closer], parents[closer] = distance[closer], i
+    for i in range(1, count):
+        apart = points[:i] - points[i]
+        distance = np.where(depth[:i] < deepest, np.einsum("ij,ij->i", apart, apart), math.inf)
+        nearest = int(np.argmin(distance))
+        if distance[nearest] < points[i] @ points[i]:
+            parents[i], depth[i] = nearest, depth[nearest] + 1
     return parents
 
 

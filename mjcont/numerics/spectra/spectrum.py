@@ -53,14 +53,15 @@ class Spectrum:
     def pair_count(self) -> int:
         """Return how many pairs of eigenvalues have a positive sum (complex pairs, and pairs of real ones).
 
-        It changes by one at a Hopf point or a neutral saddle and nowhere else. Complex pairs within the noise of
-        the axis are left out.
+        It changes by one at a Hopf point or a neutral saddle and nowhere else. Pairs whose sum is zero within the
+        noise are left out: undamped oscillations, and the real pairs into which they turn at a fold.
         """
         ev = self.eigenvalues
         pairs = int(np.count_nonzero((ev.imag > 0) & (ev.real > self.noise)))
-        real = ev.real[np.abs(ev.imag) == 0]
-        sums = real[:, None] + real[None, :]
-        return pairs + int(np.count_nonzero(np.triu(sums > 0, 1)))
+        of_real = np.abs(ev.imag) == 0
+        real, noise = ev.real[of_real], self.noise[of_real]
+        sums, unsure = real[:, None] + real[None, :], noise[:, None] + noise[None, :]
+        return pairs + int(np.count_nonzero(np.triu(sums > unsure, 1)))
 
 
 def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spectrum:
@@ -141,6 +142,15 @@ def quadratic_eigenvalues(mass: Array, damping: Array, stiffness: Array) -> Arra
     block[..., n:, :n], block[..., n:, n:] = -k / rate**2, -c / rate
     found: Array = eigenvalues(block) * rate[..., 0]
     return found
+
+
+def companion(mass: Array, damping: Array, stiffness: Array) -> Array:
+    """Return the matrix of the first-order form of s^2 M + s C + K, (2 n, 2 n)."""
+    n = len(mass)
+    both = solve(mass, np.concatenate([stiffness, damping], axis=-1))
+    out = np.zeros((2 * n, 2 * n))
+    out[:n, n:], out[n:] = np.eye(n), -both
+    return out
 
 
 def conservative_spectra(pencils: Sequence[Pencil]) -> list[Spectrum]:

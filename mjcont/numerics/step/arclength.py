@@ -244,10 +244,12 @@ def advance(
     """
     prediction = system.admissible(point.x, predict(point, h) if prediction is None else prediction)
     x, y = system.move(point.x, point.y, prediction)
+    local = system.local(x, y)
+    fresh = fresh and not _beyond_a_kink(system, point, local)
     extrapolated = not (fresh or system.conditions or sparse.issparse(point.jac))
     expected = _TRUST * point.rate if extrapolated and len(point.past) == _PAST else math.inf
     lu = None if fresh else Factored(with_row(_matrix_ahead(point, h) if extrapolated else point.jac, point.tangent))
-    c = correct(system, x, y, point.tangent, lu, settings, expected)
+    c = correct(system, x, y, point.tangent, lu, settings, expected, _WANDER * abs(h), local)
     if c.failure is not None:
         return c.failure
     chord = system.difference(c.x, c.y, point.x, point.y)
@@ -260,6 +262,11 @@ def advance(
     if new.angle > settings.angle_max:
         return Refused(Why.TURNED, f"the tangent turns by more than {math.degrees(settings.angle_max):.0f} deg")
     return new
+
+
+def _beyond_a_kink(system: System, point: CurvePoint, local: Local) -> bool:
+    """Whether an evaluation lies on another smooth piece of f than a point: its derivatives are not the curve's."""
+    return system.problem.nonsmooth and local.piece != point.local.piece
 
 
 def follows(new: CurvePoint, old: CurvePoint) -> None:
@@ -323,4 +330,20 @@ def land(
         return Refused(Why.MISSED, "the bound was not met along the curve")
     new.s += arc(length(chord), math.cos(new.angle))
     new.past = remembered(point, chord)
+    return new
+
+
+def land_beside(
+    system: System, point: CurvePoint, index: int, target: float, settings: Settings
+) -> CurvePoint | Refused:
+    """Return the point of the curve at which y[index] = target, a hair away from one of its points."""
+    row = np.zeros(system.n + system.k)
+    row[system.n + index] = 1.0
+    y = point.y.copy()
+    y[index] = target
+    c = correct(system, point.x, y, row, None, settings)
+    if c.failure is not None:
+        return c.failure
+    new = point_from(c, point.tangent, point.s)
+    new.s += length(system.difference(c.x, c.y, point.x, point.y))
     return new

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.looking import look
 from mjcont.numerics.spectra.stability import negative_stiffness, tell
 from mjcont.numerics.step.arclength import CurvePoint, advance, aim, follows, predict, turned_back
 from mjcont.numerics.walk.interior import Interior
@@ -118,7 +119,7 @@ class Filled(OneByOne):
         located, neutral = list[Located](), list[Located]()
         for i, j in self._long.spans(leap.old, leap.new, inside):
             follows(every[j], every[i])
-            found = self.between(every[i], every[j], self.detectors)
+            found = look(self.system, every[i], every[j], self.detectors, self.settings)
             if isinstance(found, Refused):
                 return replace(found, shorter=_SHORTER * leap.h)
             located += found.located
@@ -127,7 +128,7 @@ class Filled(OneByOne):
                 tell(every[i], every[i + 1 : j], every[j])
         others = [d for d in self.detectors if not d.structural]
         for a, b in itertools.pairwise(every) if others else ():
-            found = self.between(a, b, others)
+            found = look(self.system, a, b, others, self.settings)
             if isinstance(found, Refused):
                 return replace(found, shorter=_SHORTER * leap.h)
             located += found.located

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mjcont.errors import MjcontError
+from mjcont.numerics.equations.clock import TimeUp
 from mjcont.numerics.walk.steps import End, Item, Status
 
 Items = Iterator[Item]
@@ -23,10 +24,10 @@ def raise_unexpected(on: bool) -> bool:
 
 
 def guarded(walk: Items) -> Items:
-    """Yield what a walk yields, and an end with status "failed" where it raises what is no `MjcontError`."""
+    """Yield what a walk yields, and an end with status "failed" where it raises what nobody expected."""
     try:
         yield from walk
-    except MjcontError:
+    except (MjcontError, TimeUp):
         raise
     except Exception as error:
         if _raised:

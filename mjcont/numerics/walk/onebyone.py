@@ -12,16 +12,13 @@ from dataclasses import dataclass, field, replace
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
-from mjcont.numerics.points.corner import NEAR, cross
-from mjcont.numerics.points.events import Detector, Found, Located
+from mjcont.numerics.points.events import Detector
+from mjcont.numerics.points.looking import SMALL_FOLDS, look
 from mjcont.numerics.step.arclength import CurvePoint, advance, aim, by_contraction, follows, land, next_step, predict
-from mjcont.numerics.step.turning import may_turn_beyond, may_turn_twice
+from mjcont.numerics.step.turning import may_turn_twice
+from mjcont.numerics.walk.kinks import across, at_bound, broken_off
 from mjcont.numerics.walk.steps import End, Leap, Status, Step
 
-# below this step a pair of folds, or a fold beyond a bound, is not looked for between two points
-_SMALL_FOLDS = 1e-5
-# a fold this near to a branch point is the same point: a pitchfork's turning side branch
-_SAME_AS_BRANCH = 1e-5
 # parts of a refused step that are tried next; corrections after which derivatives are taken at the prediction; along a
 # locus, whose matrices are not extrapolated, contraction that tells that they turn with the mechanism
 _SHORTER, _MANY, _STALE = 0.4, 4, 0.25
@@ -62,12 +59,12 @@ class OneByOne:
             if isinstance(tried, Step):
                 return tried
             h = tried.shorter or 0.0
-            if h < NEAR and not self.system.conditions:
-                crossed = cross(self.system, point, self.settings)
-                if crossed is not None:
-                    return Step([crossed[1], crossed[0]], self.settings.ds)
+            crossing = across(self.system, point, h, self.settings)
+            if crossing is not None:
+                return crossing
             if h < self.settings.ds_min:
-                return End(Status.STEP_TOO_SMALL, f"step below ds_min at {self._where(point)}: {tried}")
+                sentence = f"step below ds_min at {self.system.where(point.y)}: {tried}"
+                return broken_off(self.system, point) or End(Status.STEP_TOO_SMALL, sentence)
 
     def attempt(self, point: CurvePoint, h: float) -> Step | Refused:
         """Return a step of length h with the special points within, or why it is refused."""
@@ -96,16 +93,15 @@ class OneByOne:
             new = land(self.system, point, index, bound, ahead, settings, fresh=True, steady=far)
         if isinstance(new, Refused):
             return replace(new, shorter=_SHORTER * min(h, max(ahead, 0.1 * h)))
-        p = self.system.free[index]
-        return Leap(point, new, h, End(Status.AT_BOUND, f"{p.name} reached its bound {p.show(p.value(bound))}"))
+        return Leap(point, new, h, at_bound(self.system, index, bound))
 
     def looked(self, leap: Leap) -> Step | Refused:
         """Look for special points within a step, and choose the next."""
         old, new, h = leap.old, leap.new, leap.h
-        if not self.system.conditions and h > _SMALL_FOLDS and may_turn_twice(self.system, old, new, 0):
+        if not self.system.conditions and h > SMALL_FOLDS and may_turn_twice(self.system, old, new, 0):
             return Refused(Why.TURNS_TWICE, "the parameter may turn twice", _SHORTER * h)
         follows(new, old)
-        found = self.between(old, new, self.detectors)
+        found = look(self.system, old, new, self.detectors, self.settings)
         if isinstance(found, Refused):
             return replace(found, shorter=_SHORTER * h)
         self.learn(leap)
@@ -116,25 +112,3 @@ class OneByOne:
         new, short = leap.new, leap.h <= self.settings.ds_max
         stale = bool(self.system.conditions) and new.contraction > _STALE
         self._fresh |= short and by_contraction(new) < 1.0 and (new.iterations > _MANY or stale)
-
-    def between(self, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector]) -> Found | Refused:
-        """Return the special points between two points of the curve in order, or why the step is to be shorter."""
-        located, neutral = list[Located](), list[Located]()
-        for detector in detectors:
-            found = detector.locate(old, new, located) if detector.crossed(old, new) else Found()
-            if isinstance(found, Refused):
-                return found
-            located += found.located
-            neutral += found.neutral
-        branch_points = [e.point.s for e in located if e.kind == "BP"]
-        if branch_points:
-            folds = [e for e in located if e.kind == "LP"]
-            same = [e for e in folds if any(abs(e.point.s - s) <= _SAME_AS_BRANCH for s in branch_points)]
-            located = [e for e in located if e not in same]
-        if not located and new.s - old.s > _SMALL_FOLDS and may_turn_beyond(self.system, old, new):
-            return Refused(Why.TURNS_TWICE, "a parameter may turn beyond its bound")
-        return Found(sorted(located, key=lambda e: e.point.s), neutral)
-
-    def _where(self, point: CurvePoint) -> str:
-        free = zip(self.system.free, point.y.tolist(), strict=False)
-        return ", ".join(f"{p.name} = {p.show(p.value(u))}" for p, u in free)

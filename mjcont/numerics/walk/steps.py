@@ -16,6 +16,7 @@ class Status(Enum):
     AT_BOUND = "at bound"
     CLOSED = "closed"
     STEP_TOO_SMALL = "step too small"
+    BREAKS_OFF = "breaks off"
     MAX_POINTS = "max points"
     MAX_ARCLENGTH = "max arclength"
     MAX_TIME = "max time"

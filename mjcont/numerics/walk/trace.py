@@ -6,13 +6,13 @@ It is told what steps (`OneByOne`, `Filled`), and knows limits, when a curve has
 from __future__ import annotations
 
 import math
-import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.newton import length
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import Settings
@@ -73,7 +73,7 @@ class Walker:
 
         `known` are special points of the same curve found before, in the other direction: none is found twice.
         """
-        settings, began = self.settings, time.monotonic()
+        settings = self.settings
         point, h, count = start, self.stepper.begin(start), 1
         steps = deque[Step | End]()
         every = list(known)
@@ -83,7 +83,7 @@ class Walker:
             if self._size(point) > largest:
                 yield End(Status.RUNS_OFF, f"a state coordinate exceeds {largest:g} times its scale (max_size)")
                 return
-            limit = self._limit(point, count, began)
+            limit = self._limit(point, count)
             if not (limit or steps):
                 steps.extend(self.stepper.steps(point, h))
             step = limit or steps.popleft()
@@ -111,7 +111,7 @@ class Walker:
                 if not ended or item.s - point.s > _SAME_POINT:
                     yield item
                 point, count = item, count + 1
-                limit = None if item is step.items[-1] else self._limit(point, count, began)
+                limit = None if item is step.items[-1] else self._limit(point, count)
                 if limit is not None:
                     yield limit
                     return
@@ -140,14 +140,14 @@ class Walker:
         part[finite] -= turns[finite] * periods[finite]
         return step, turns
 
-    def _limit(self, point: CurvePoint, count: int, began: float) -> End | None:
+    def _limit(self, point: CurvePoint, count: int) -> End | None:
         settings = self.settings
         if count >= settings.max_points:
             return End(Status.MAX_POINTS, f"the limit of {settings.max_points} points was reached")
         if point.s >= settings.max_arclength:
             return End(Status.MAX_ARCLENGTH, f"the limit of {settings.max_arclength:g} in arclength was reached")
-        if time.monotonic() - began > settings.max_seconds:
-            return End(Status.MAX_TIME, f"the limit of {settings.max_seconds:g} s was reached")
+        if clock.expired():
+            return time_up(settings)
         message = self.stop(point) if self.stop is not None else None
         if not message:
             return None
@@ -157,8 +157,6 @@ class Walker:
     def _periods(self, start: CurvePoint) -> Array:
         """Return the periods of the scaled state coordinates, infinite where a coordinate has none, (n,)."""
         problem = self.system.problem
-        if self.system.conditions:
-            return np.full(self.system.n, np.inf)
         if self._turns is None:
             self._turns = problem.periods(start.x, self.system.values(start.y)) / problem.state_scale
         return self._turns
@@ -186,6 +184,11 @@ class Walker:
         return bool(turns.any()) if 0.0 < along <= size + _SAME_LOCATED and aside <= 0.1 * size else None
 
 
+def time_up(settings: Settings) -> End:
+    """Return the end of a curve that takes too long."""
+    return End(Status.MAX_TIME, f"the limit of {settings.max_seconds:g} s was reached")
+
+
 def trace(
     walker: Walker,
     start: CurvePoint,
@@ -206,6 +209,8 @@ def trace(
                 result.points.append(item)
             if progress is not None:
                 progress(item)
+    except clock.TimeUp:
+        result.end = time_up(walker.settings)
     except KeyboardInterrupt:
         result.end = End(Status.INTERRUPTED, f"stopped by the user after {len(result.points)} points")
     return result

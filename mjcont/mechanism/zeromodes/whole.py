@@ -8,7 +8,8 @@ stability; the residual is untouched, since it has no component along them.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import islice
 from typing import Any
 
 import mujoco
@@ -25,7 +26,7 @@ _NOTHING = 1e-12
 _SAME = 1e-6
 # components of a unit twist that are rounding
 _ROUNDS = 1e-9
-_STATES = 12
+_STATES, _TURNED = 12, 2
 # states after which it may be plain already that something opposes every motion
 _EARLY = (0, 3, 6)
 _STIFF = 1e-5  # a soft constraint stiffens with its violation, which differences see as a force
@@ -145,8 +146,11 @@ def _named(free: np.ndarray) -> list[str]:
 def _unopposed(mechanism: Any, model: mujoco.MjModel, position: Any, x: np.ndarray, values: Any, name: str) -> bool:
     """Whether the forces do not change along a motion, but for turning with it."""
     z = directions(model, position(x), [name]).get(name)
-    if z is None:
-        return False
+    return z is not None and leaves_forces(mechanism, x, values, z)
+
+
+def leaves_forces(mechanism: Any, x: np.ndarray, values: Any, z: np.ndarray) -> bool:
+    """Whether forces do not change along a tangent vector z, (nv,), but for turning with it."""
     local = mechanism.linearize(x, values, ())
     turned = 2.0 * np.abs(local.f).max()
     return bool(np.abs(local.jac @ z).max() <= (_STIFF * (np.abs(local.jac).max() or 1.0) + turned) * np.abs(z).max())
@@ -168,15 +172,30 @@ def without_modes(step: np.ndarray, mass: np.ndarray, z: np.ndarray) -> np.ndarr
     return step - z @ solve(z.T @ mass @ z, z.T @ (mass @ step))
 
 
+def _hinges(labels: Sequence[tuple[str, str]]) -> list[int]:
+    """Return the tangent coordinates of hinges from the name and unit of each entry of a state."""
+    found, tangent, entries = [], 0, iter(labels)
+    for name, unit in entries:
+        if name.endswith(".q0"):  # a quaternion: four entries, three coordinates
+            tangent += 3
+            list(islice(entries, 3))
+            continue
+        if unit == "rad":
+            found.append(tangent)
+        tangent += 1
+    return found
+
+
 def full_turns(problem: Any, x: np.ndarray, values: Values) -> np.ndarray:
     """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
     found = np.full(problem.n, np.inf)
-    hinges = [j for j, (_, unit) in enumerate(problem.state_labels) if unit == "rad" and problem.nq == problem.n]
-    beside = problem.retract(x, 0.1 * problem.state_scale * np.cos(1.0 + np.arange(problem.n)))
+    hinges = _hinges(problem.state_labels)
     turns = 2.0 * np.pi * np.eye(problem.n)[hinges]
-    rows = problem.residuals(beside, values, np.concatenate([np.zeros((1, problem.n)), turns]))
-    change = np.abs(rows[1:] - rows[0]).max(axis=1, initial=0.0)
-    for j, c in zip(hinges, change, strict=True):
-        if c <= 1e-9 * np.abs(rows[0]).max():
-            found[j] = 2.0 * np.pi
+    change, largest = np.zeros(len(hinges)), 0.0
+    for k in range(_TURNED):  # one of several states: f may vanish in any one of them
+        beside = problem.retract(x, (0.1 + 0.3 * k) * problem.state_scale * np.cos(1.0 + k + np.arange(problem.n)))
+        rows = problem.residuals(beside, values, np.concatenate([np.zeros((1, problem.n)), turns]))
+        change = np.maximum(change, np.abs(rows[1:] - rows[0]).max(axis=1, initial=0.0))
+        largest = max(largest, float(np.abs(rows[0]).max()))
+    found[[j for j, c in zip(hinges, change, strict=True) if c <= 1e-9 * largest]] = 2.0 * np.pi
     return found

@@ -1,0 +1,221 @@
+"""What happens between two points of a curve of equilibria, in pieces: at most one eigenvalue reaches the axis in each.
+
+Eigenvalues are followed from one point to the next (`tracks`). Where two reach the axis within a step, in the same
+direction or in opposite ones, or one that turns there, the step is halved between them until each is alone, or until
+they cannot be told apart: they are one multiple point then. What the ends of a step do not show, a bump between them,
+is looked for by the product of the Jacobian with one vector, at one evaluation a place.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.refusals import Refused
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import System
+from mjcont.numerics.points.corner import loaded_at
+from mjcont.numerics.points.events import Located, between
+from mjcont.numerics.spectra.tracks import Meeting, Tracks, interpolated, meetings, motion_at, tracks
+from mjcont.numerics.step.arclength import BEFORE, CurvePoint, advance
+
+# pieces shorter than this are not halved, nor more often than this in a step
+_ALONE, _MOST = 2e-8, 80
+# no piece ends nearer to another's end than this part; near a point that is found already nothing is looked for
+_EDGE, _NEAR = 0.02, 1e-4
+# products with the Jacobian are taken this many times the longest step; a change of an eigenvalue that they show counts
+# from this part of its distance from the axis on, or of its values at the ends where it passes
+_PLACES, _CHANGES, _STEEPENS = 0.25, 0.3, 0.1
+# difference step of such a product, in scaled unknowns
+_PROBE = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A part of a step.
+
+    Attributes
+    ----------
+    old, new : its ends.
+    together : how many eigenvalues reach the axis together at `new`; zero where none do, or one alone.
+    oscillate : whether these are pairs.
+    quiet : whether nothing is left to be looked for.
+    """
+
+    old: CurvePoint
+    new: CurvePoint
+    together: int = 0
+    oscillate: bool = False
+    quiet: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class _Cut:
+    """Where a piece is to be halved, as a part of it, and what may be found on the axis there, if anything."""
+
+    at: float
+    met: Sequence[Meeting] = ()
+
+
+@dataclass(slots=True)
+class Balance:
+    """Takes the steps of a curve of equilibria to pieces."""
+
+    system: System
+    settings: Settings
+    _made: int = field(default=0, init=False)
+
+    def pieces(self, old: CurvePoint, new: CurvePoint) -> list[Piece]:
+        """Return the pieces of a step in order."""
+        if self.system.conditions or motion_at(old) is None or motion_at(new) is None or not new.s > old.s:
+            return [Piece(old, new)]
+        if self.system.problem.nonsmooth and loaded_at(self.system, old) != loaded_at(self.system, new):
+            return [Piece(old, new)]  # a corner: eigenvalues jump there
+        before = BEFORE.get(old)
+        known = before is not None and before.s < old.s and motion_at(before) is not None
+        nodes = [before, old, new] if before is not None and known else [old, new]
+        self._made = 0
+        found, i = list[Piece](), len(nodes) - 2
+        multiple = list[CurvePoint]()
+        while i < len(nodes) - 1:
+            a, b = nodes[i], nodes[i + 1]
+            judged = self._judged(nodes, i)
+            middle = None if isinstance(judged, Piece) else self._middle(a, b, judged.at)
+            if middle is None or isinstance(judged, Piece):
+                piece = judged if isinstance(judged, Piece) else Piece(a, b)
+                found.append(replace(piece, quiet=piece.quiet and any(a is m for m in multiple)))
+                i += 1
+                continue
+            nodes.insert(i + 1, middle)
+            held = self._held(a, middle, b, judged.met)
+            if held:  # nothing before it in this piece: the first two are looked at first
+                found.append(Piece(a, middle, held, judged.met[0].oscillates, True))
+                middle.sign = b.sign
+                multiple.append(middle)
+                i += 1
+        return found
+
+    @staticmethod
+    def _held(a: CurvePoint, middle: CurvePoint, b: CurvePoint, met: Sequence[Meeting]) -> int:
+        """Return how many eigenvalues that reach the axis a point between two others holds there, 0 for one alone."""
+        if not met:
+            return 0
+        every = [m for p in (a, middle, b) if (m := motion_at(p)) is not None]
+        counts = [m.oscillating if met[0].oscillates else m.held for m in every]
+        more = counts[1] - max(counts[0], counts[2])
+        return more if more > 1 or (more == 1 and not met[0].crosses) else 0
+
+    def _middle(self, a: CurvePoint, b: CurvePoint, part: float) -> CurvePoint | None:
+        """Return the point of the curve at a part of a piece, None where there is none."""
+        self._made += 1
+        middle = advance(self.system, a, part * (b.s - a.s), self.settings)
+        if isinstance(middle, Refused) or not a.s < middle.s < b.s or motion_at(middle) is None:
+            return None
+        return middle
+
+    def _judged(self, nodes: Sequence[CurvePoint], i: int) -> Piece | _Cut:
+        """Return a piece that is not to be halved any further, or where it is to be."""
+        a, b = nodes[i], nodes[i + 1]
+        met, last = meetings(nodes, i), self._made >= _MOST
+        if len(met) > 1 or (met and not met[0].crosses and not self._turns(a, b)):
+            if b.s - a.s < _ALONE or last:
+                together = sum(m.crosses for m in met)
+                return Piece(a, b, together if together > 1 else 0, met[0].oscillates)
+            at = met[0].at if len(met) == 1 else 0.5 * (met[0].at + met[1].at)
+            return _Cut(min(max(at, _EDGE), 1.0 - _EDGE), met)
+        strays = None if last or met and b.s - a.s < _NEAR else self._strays(nodes, i)
+        return Piece(a, b, quiet=not met) if strays is None else _Cut(strays)
+
+    def _turns(self, a: CurvePoint, b: CurvePoint) -> bool:
+        """Whether parameter and orientation turn: on the side branch of a pitchfork an eigenvalue touches zero."""
+        n = self.system.n
+        return a.sign * b.sign < 0.0 and a.tangent[n] * b.tangent[n] <= 0.0
+
+    def _strays(self, nodes: Sequence[CurvePoint], i: int) -> float | None:
+        """Return where an eigenvalue strays so far from what the points tell that it may reach the axis, or None."""
+        a, b = nodes[i], nodes[i + 1]
+        followed = tracks(nodes, i)
+        count = math.ceil((b.s - a.s) / (_PLACES * self.settings.ds_max) - 0.1) - 1
+        if count < 1 or followed is None:
+            return None
+        probe = _Probe.of(self.system, nodes, i)
+        worst, where = 1.0, None
+        for t in (np.arange(count) + 1.0) / (count + 1.0):
+            share = probe.strays(float(t), followed)
+            if share > worst:
+                worst, where = share, float(t)
+        return where
+
+
+def multiple(piece: Piece) -> Located:
+    """Return a point at which eigenvalues reach the axis together: bracketed, not solved for."""
+    kind, what = ("HB", "pairs of eigenvalues reach the axis") if piece.oscillate else ("BP", "eigenvalues vanish")
+    count = f"{piece.together} {what} together" if piece.together > 1 else "an eigenvalue touches the axis"
+    note = f"{count}: a point of higher multiplicity, bracketed only"
+    return Located(kind, piece.new, piece.new.s - piece.old.s, False, {"type": "multiple"}, note)
+
+
+@dataclass(frozen=True, slots=True)
+class _Probe:
+    """The product J r along a piece: r the sum of the eigenvectors, so that each eigenvalue shows in it.
+
+    Attributes
+    ----------
+    vector : (n,) r.
+    left : (N, n) takes each eigenvalue's share out of a product.
+    along : coefficients of the polynomial for J r that the points tell, (n,) each.
+    """
+
+    system: System
+    old: CurvePoint
+    new: CurvePoint
+    vector: Array
+    left: Array
+    along: list[Array]
+
+    @staticmethod
+    def of(system: System, nodes: Sequence[CurvePoint], i: int) -> _Probe:
+        """Return the probe of the piece between points i and i + 1."""
+        a, motion, n, scale = nodes[i], motion_at(nodes[i]), system.n, system.problem.state_scale
+        assert motion is not None and motion.modes is not None
+        modes = motion.modes
+        size = np.abs(modes.right[:n] / scale[:, None]).max(axis=0)
+        unit = modes.right / np.where(size > 0.0, size, 1.0)
+        whole = (unit.real + unit.imag).sum(axis=1)
+        mass, left = a.local.pencil.mass, modes.left[-n:].conj().T
+        left = left if mass is None else np.linalg.solve(mass.T, left.T).T
+        parts = np.abs(modes.left.conj().T @ whole)
+        length = float(np.abs(whole[:n] / scale).max()) or 1.0
+        left = left / np.where(parts > 0.0, parts, 1.0)[:, None] * length
+        vector = whole[:n] / length
+        return _Probe(system, a, nodes[i + 1], vector, left, [part @ vector for part in interpolated(nodes, i)])
+
+    def strays(self, t: float, followed: Tracks) -> float:
+        """Return by how much an eigenvalue strays at a part of the piece, one where it is worth a point there."""
+        x, y, _ = between(self.system, self.old, self.new, t)
+        expected = sum(part * t**k for k, part in enumerate(self.along))
+
+        def beside(step: float) -> Array:
+            found: Array = self.system.problem.residuals(x, self.system.values(y), step * self.vector[None])[0]
+            return found
+
+        ahead = beside(_PROBE)
+        share = self._share(ahead / _PROBE - expected, t, followed)
+        if share <= 1.0:  # f is nearly zero at the place itself; where this shows something the other side makes sure
+            return share
+        return self._share((ahead - beside(-_PROBE)) / (2.0 * _PROBE) - expected, t, followed)
+
+    def _share(self, change: Array, t: float, followed: Tracks) -> float:
+        """Return by how much an eigenvalue strays for a change of J r."""
+        off = np.abs(self.left @ change)
+        if not np.all(np.isfinite(off)):
+            return 0.0
+        ends = np.maximum(np.abs(followed.start), np.abs(followed.end))
+        passes = followed.start.real * followed.end.real < 0.0
+        floor = np.maximum(_CHANGES * np.abs(followed.at(t).real), np.where(passes, _STEEPENS * ends, 0.0))
+        away = (np.abs(followed.start.real) > followed.noise) & (np.abs(followed.end.real) > followed.noise)
+        return float((off / np.maximum(floor, 1e2 * followed.noise))[away].max(initial=0.0))

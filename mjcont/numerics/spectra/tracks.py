@@ -1,0 +1,279 @@
+"""Where eigenvalues reach the axis between two points of a curve, as the matrices of the points around tell.
+
+    zero           det J(t) = 0 for the polynomial J(t) through the Jacobians of up to three points
+    oscillations   lambda' = w* A' v / w* v: complex eigenvalues are cubics through both points with their slopes,
+                   matched by them
+
+with the matrix A of the linearised motion, its left and right vectors w, v, and A' by differences of the matrices that
+the points have anyway. Source: Tisseur, Meerbergen, The quadratic eigenvalue problem (SIAM Review 43, 2001), section
+3.4; Kato, Perturbation Theory for Linear Operators, section II.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import linalg
+from scipy.optimize import linear_sum_assignment
+
+from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.spectra.spectrum import companion, symmetric
+from mjcont.numerics.spectra.stability import negative_stiffness, spectrum_of
+from mjcont.numerics.step.arclength import CurvePoint
+from mjcont.numerics.step.notes import Note
+
+# noise of eigenvalues in parts of the matrix: of differences of fourth order, of second order, and of eigenvalues
+_FOURTH, _SECOND, _OWN = 1e-11, 1e-10, 1e-12
+# eigenvectors more nearly orthogonal to their left ones than this give no slope
+_DEFECTIVE = 1e-5
+# unknowns up to which eigenvalues are followed
+_MANY = 128
+# a cubic whose smallest value is below this part of those at its ends may touch zero; one errs by less than this part
+# of how far straight lines along its slopes miss its ends
+_DIPS, _ERRS = 0.5, 0.25
+_GRID = np.linspace(0.0, 1.0, 17)[1:-1]
+_GRID_ERRORS = 16.0 * (_GRID * (1.0 - _GRID)) ** 2
+# a root of det J(t) this near to a point that holds the eigenvalue is that point's
+_OWN_ROOT = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Modes:
+    """Eigenvalues (N,) of a matrix, its right and left vectors (N, N) in columns, w* v = 1, and the noise (N,).
+
+    `sure` tells those whose vectors can be told apart: the others have no slope.
+    """
+
+    matrix: Array
+    values: Array
+    right: Array
+    left: Array
+    noise: Array
+    sure: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """What is known of small motions at a point.
+
+    Attributes
+    ----------
+    jac : (n, n) df/dx.
+    held : how many eigenvalues of it are zero as far as can be told.
+    modes : those of the first-order form, None where no oscillation can gain energy.
+    """
+
+    jac: Array
+    held: int
+    modes: Modes | None
+
+    @property
+    def oscillating(self) -> int:
+        """How many oscillations neither grow nor decay as far as can be told."""
+        if self.modes is None:
+            return 0
+        values, noise = self.modes.values, self.modes.noise
+        return int(np.count_nonzero((np.abs(values.real) <= noise) & (values.imag > noise)))
+
+
+_MOTION = Note[Motion | None]()
+
+
+def motion_at(point: CurvePoint) -> Motion | None:
+    """Return the motion at a point, computed once; None where matrices are sparse, too large or undefined."""
+    return _MOTION.of(point, lambda: _motion(point))
+
+
+def _motion(point: CurvePoint) -> Motion | None:
+    jac = point.local.raw_jac
+    if not isinstance(jac, np.ndarray) or len(jac) > _MANY or not np.all(np.isfinite(jac)):
+        return None
+    second = point.local.problem.second_order
+    floor = (_SECOND if second else _FOURTH) * float(np.abs(jac).max())
+    if negative_stiffness(point) is not None or (second and symmetric(jac) and spectrum_of(point).conservative):
+        squares = np.linalg.eigvalsh(0.5 * (jac + jac.T))
+        return Motion(jac, int(np.count_nonzero(np.abs(squares) <= floor)), None)
+    matrix = jac
+    if second:
+        pencil = point.local.pencil
+        assert pencil.mass is not None and pencil.damping is not None
+        matrix = companion(pencil.mass, pencil.damping, pencil.stiffness)
+    if not np.all(np.isfinite(matrix)):
+        return None
+    try:
+        values, left, right = linalg.eig(matrix, left=True, right=True)
+        own = linalg.eigvals(jac) if second else values
+    except (linalg.LinAlgError, ValueError):
+        return None
+    products = np.einsum("ij,ij->j", left.conj(), right)
+    sure = np.abs(products) > _DEFECTIVE
+    left = left / np.where(sure, products, 1.0).conj()
+    noise = (_SECOND if second else _FOURTH) * np.abs(matrix).max() + _OWN * np.abs(values)
+    held = int(np.count_nonzero(np.abs(own) <= floor))
+    return Motion(jac, held, Modes(matrix, values, right, left, noise, sure))
+
+
+@dataclass(frozen=True, slots=True)
+class Meeting:
+    """Where an eigenvalue reaches the axis: the part of the step, whether for certain, and whether it oscillates."""
+
+    at: float
+    crosses: bool
+    oscillates: bool
+
+
+def meetings(nodes: Sequence[CurvePoint], i: int) -> list[Meeting]:
+    """Return where eigenvalues reach the axis between points i and i + 1 of a curve, or may, in order.
+
+    The points beside help. Eigenvalues on the axis at one end are left out: what lies on a point belongs to the steps
+    on both sides.
+    """
+    followed = tracks(nodes, i)
+    return sorted([*_zeros(nodes, i), *([] if followed is None else followed.meetings())], key=lambda m: m.at)
+
+
+def _around(nodes: Sequence[CurvePoint], i: int) -> list[CurvePoint]:
+    """Return points i and i + 1, and the one before, or else after, where it has a motion."""
+    return list(nodes[max(i - 1, 0) : max(i - 1, 0) + 3])
+
+
+def interpolated(nodes: Sequence[CurvePoint], i: int) -> list[Array]:
+    """Return the coefficients of J(t) = A0 + A1 t + A2 t^2 between points i and i + 1, t from 0 to 1.
+
+    None where there is no motion at these or they coincide.
+    """
+    a, b = nodes[i], nodes[i + 1]
+    every = [(p, m) for p in _around(nodes, i) if (m := motion_at(p)) is not None]
+    if not b.s > a.s or len(every) < 2:
+        return []
+    places = [(p.s - a.s) / (b.s - a.s) for p, _ in every]
+    inverse = np.linalg.inv(np.vander(places, increasing=True))
+    stack = np.array([m.jac for _, m in every])
+    return list(np.tensordot(inverse, stack, axes=1))
+
+
+def _zeros(nodes: Sequence[CurvePoint], i: int) -> list[Meeting]:
+    """Return where det J(t) vanishes between points i and i + 1, or nearly does."""
+    a, b = motion_at(nodes[i]), motion_at(nodes[i + 1])
+    if a is None or b is None or (a.held and b.held):
+        return []
+    roots = _polynomial_eigenvalues(interpolated(nodes, i))
+    inside = [complex(r) for r in roots if 0.0 < r.real < 1.0 and abs(r.imag) < min(r.real, 1.0 - r.real)]
+    for held, end in ((a.held, 0.0), (b.held, 1.0)):
+        own = sorted((r for r in inside if abs(r - end) < _OWN_ROOT), key=lambda r: abs(r - end))[:held]
+        inside = [r for r in inside if r not in own]
+    crossing = [Meeting(r.real, True, False) for r in inside if r.imag == 0.0]
+    return crossing + [Meeting(r.real, False, False) for r in inside if r.imag > 0.0]
+
+
+def _polynomial_eigenvalues(parts: Sequence[Array]) -> Array:
+    """Return the t for which A0 + A1 t + A2 t^2 is singular; A0 is the matrix at a point of the curve.
+
+    As eigenvalues 1 / t of the companion matrix of A0^-1 A1, A0^-1 A2.
+    """
+    if not (len(parts) > 1 and all(np.isfinite(p).all() for p in parts)):
+        return np.zeros(0)
+    n = len(parts[0])
+    try:
+        below = np.linalg.solve(parts[0], np.concatenate(parts[1:], axis=1))
+        matrix = -below
+        if len(parts) > 2:
+            matrix = np.block([[-below], [np.eye(n), np.zeros((n, n))]])
+        inverse = np.linalg.eigvals(matrix) if np.isfinite(matrix).all() else np.zeros(0)
+    except np.linalg.LinAlgError:
+        return np.zeros(0)
+    found: Array = 1.0 / inverse[np.abs(inverse) > 1e-12]
+    return found[np.isfinite(found)]
+
+
+@dataclass(frozen=True, slots=True)
+class Tracks:
+    """Eigenvalues between two points: values (N,) and slopes over the step (N,) at both, one index for one eigenvalue.
+
+    Attributes
+    ----------
+    errors : (N,) how far straight lines along the slopes at one end miss the real parts at the other.
+    noise : (N,) how near zero a real part says nothing.
+    """
+
+    start: Array
+    end: Array
+    start_slope: Array
+    end_slope: Array
+    errors: Array
+    noise: Array
+
+    def at(self, t: float) -> Array:
+        """Return the eigenvalues at a fraction of the step, on their cubics."""
+        square, rest = t * t, 1.0 - t
+        found: Array = (1.0 + 2.0 * t) * rest * rest * self.start + t * rest * rest * self.start_slope
+        found = found + square * (3.0 - 2.0 * t) * self.end - square * rest * self.end_slope
+        return found
+
+    def meetings(self) -> list[Meeting]:
+        """Return where oscillations reach the axis, or come so near that they may."""
+        y0, y1, d0, d1 = (np.real(a) for a in (self.start, self.end, self.start_slope, self.end_slope))
+        away = (np.abs(y0) > self.noise) & (np.abs(y1) > self.noise)
+        oscillates = (np.imag(self.start) > self.noise) & (np.imag(self.end) > self.noise)
+        hull = np.array([y0, y0 + d0 / 3.0, y1 - d1 / 3.0, y1]) * np.sign(y0)
+        floor = np.maximum(_DIPS * np.minimum(np.abs(y0), np.abs(y1)), _ERRS * self.errors)
+        found: list[Meeting] = []
+        for k in np.flatnonzero(away & oscillates & (hull.min(axis=0) < floor)).tolist():
+            found += _of_cubic(*(float(a[k]) for a in (y0, d0, y1, d1, self.errors)))
+        return found
+
+
+def _of_cubic(y0: float, d0: float, y1: float, d1: float, error: float) -> list[Meeting]:
+    """Return the zeros of a cubic in (0, 1), or where it dips towards zero, or may reach it as far as it is known."""
+    c3, c2 = 2.0 * (y0 - y1) + d0 + d1, 3.0 * (y1 - y0) - 2.0 * d0 - d1
+    if not np.isfinite([c3, c2, d0, y0]).all():
+        return []
+    roots = np.roots([c3, c2, d0, y0])
+    inside = sorted(float(r.real) for r in roots if abs(r.imag) < 1e-9 and 0.0 < r.real < 1.0)
+    if inside and len(inside) % 2 == (y0 * y1 < 0.0):
+        return [Meeting(t, True, True) for t in inside]
+    if y0 * y1 < 0.0:
+        return [Meeting(y0 / (y0 - y1), True, True)]
+    turns = np.roots([3.0 * c3, 2.0 * c2, d0])
+    lowest = [float(t.real) for t in turns if abs(t.imag) < 1e-12 and 0.0 < t.real < 1.0]
+    away = np.abs(y0 + _GRID * (d0 + _GRID * (c2 + _GRID * c3))) - _ERRS * error * _GRID_ERRORS
+    unsure = [float(_GRID[away.argmin()])] if away.min() < 0.0 else []
+    dips = [t for t in lowest if abs(y0 + t * (d0 + t * (c2 + t * c3))) < _DIPS * min(abs(y0), abs(y1))]
+    return [Meeting(t, False, True) for t in (dips or unsure)[:1]]
+
+
+def tracks(nodes: Sequence[CurvePoint], i: int) -> Tracks | None:
+    """Return the eigenvalues between points i and i + 1 of a curve; None where no oscillation can gain energy."""
+    one, two = motion_at(nodes[i]), motion_at(nodes[i + 1])
+    a, b = (None if m is None else m.modes for m in (one, two))
+    h = nodes[i + 1].s - nodes[i].s
+    if a is None or b is None or len(a.values) != len(b.values) or not h > 0.0:
+        return None
+    start_slope, end_slope = h * _slopes(nodes, i, i), h * _slopes(nodes, i, i + 1)
+    forwards = np.abs((a.values + start_slope)[:, None] - b.values[None, :])
+    backwards = np.abs(a.values[:, None] - (b.values - end_slope)[None, :])
+    rows, columns = linear_sum_assignment(forwards + backwards)
+    start, end = a.values[rows], b.values[columns]
+    secant, sure = end - start, a.sure[rows] & b.sure[columns]
+    first, last = np.where(sure, start_slope[rows], secant), np.where(sure, end_slope[columns], secant)
+    errors = np.maximum(np.abs((first - secant).real), np.abs((last - secant).real))
+    return Tracks(start, end, first, last, errors, np.maximum(a.noise[rows], b.noise[columns]))
+
+
+def _slopes(nodes: Sequence[CurvePoint], i: int, at: int) -> Array:
+    """Return the slopes of the eigenvalues of point `at` along the curve, from the matrices around points i, i + 1."""
+    every = [(p.s, m.modes) for p in _around(nodes, i) if (m := motion_at(p)) is not None and m.modes is not None]
+    motion = motion_at(nodes[at])
+    assert motion is not None and motion.modes is not None
+    own, s = motion.modes, nodes[at].s
+    change = np.zeros_like(own.matrix)
+    others = [(q, modes) for q, modes in every if q != s and modes.matrix.shape == change.shape]
+    for q, modes in others:
+        weight = 1.0 / (q - s)
+        for r, _ in others:
+            weight *= (s - r) / (q - r) if r != q else 1.0
+        change = change + weight * (modes.matrix - own.matrix)
+    found: Array = np.einsum("ij,ij->j", own.left.conj(), change @ own.right)
+    return np.where(np.isfinite(found), found, 0.0)
