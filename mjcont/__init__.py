@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from mjcont.motion.histories import simulate, simulate_many
     from mjcont.motion.loadpaths import load_path
     from mjcont.numerics.equations.settings import Settings
-    from mjcont.oscillation.cycles import continue_cycles
+    from mjcont.oscillation.cycles import continue_cycles, find_cycle
     from mjcont.oscillation.forced import Harmonic
     from mjcont.oscillation.responses import continue_response
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
@@ -94,7 +94,7 @@ _HOMES = {
     "mjcont.motion.histories": ("simulate", "simulate_many"),
     "mjcont.motion.loadpaths": ("load_path",),
     "mjcont.numerics.equations.settings": ("Settings",),
-    "mjcont.oscillation.cycles": ("continue_cycles",),
+    "mjcont.oscillation.cycles": ("continue_cycles", "find_cycle"),
     "mjcont.oscillation.forced": ("Harmonic",),
     "mjcont.oscillation.responses": ("continue_response",),
     "mjcont.results.barriers": ("Barrier", "BarrierCurve", "BarrierMap"),
@@ -174,6 +174,7 @@ __all__ = [
     "draw_poses",
     "energy_barrier",
     "extend",
+    "find_cycle",
     "find_equilibria",
     "find_equilibrium",
     "follow_point",

@@ -26,7 +26,7 @@ def orbits_at_value(branch: CycleBranch, name: str, value: float) -> list[OrbitP
     """
     if name not in branch.free:
         raise MjcontError(f"at() of a curve of orbits takes a free parameter: {', '.join(branch.free)}; got '{name}'")
-    flow = flow_for(branch)
+    flow = flow_for(branch.model, branch.forcing)
     column, found = branch[name] - value, []
     for i in range(len(branch) - 1):
         a, b = float(column[i]), float(column[i + 1])

@@ -46,7 +46,7 @@ def make_orbit(point: CurvePoint) -> Orbit:
     flow, path, m, values = flow_at(point), path_at(point), multipliers_at(point), point.local.values
     return Orbit(
         path, flow.reading(path, values), dict(values), flow.units(), m.values, m.resolved, m.trivial,
-        error_at(point), flow.model.name, flow.model, orbits_at(point).shift,
+        error_at(point), flow.model.name, flow.model, orbits_at(point).shift, flow.record(),
     )
 
 
@@ -94,8 +94,14 @@ def joined(traces: Sequence[Trace], directions: Sequence[float]) -> tuple[list[R
         if direction < 0:
             rows, start = ordered[::-1], max(len(ordered) - 1, 0)
         else:
-            rows += ordered[1:] if rows else ordered
+            same = rows and ordered and _same(rows[-1][0], ordered[0][0])
+            rows += ordered[1:] if same else ordered
     return rows, start
+
+
+def _same(one: CurvePoint, other: CurvePoint) -> bool:
+    """Whether the two directions of a curve begin at the same orbit."""
+    return one.x.shape == other.x.shape and bool(np.allclose(one.x, other.x, rtol=1e-9, atol=1e-9))
 
 
 def collect(
@@ -182,7 +188,9 @@ def _marks(rows: Sequence[Row]) -> tuple[Mark, ...]:
         if e is not None:
             counts[e.kind] = counts.get(e.kind, 0) + 1
             scalars = {k: v for k, v in e.data.items() if isinstance(v, float | str)}
-            found.append(Mark(e.kind, f"{e.kind}{counts[e.kind]}", i, e.tolerance, e.converged, scalars, note=e.note))
+            vectors = {k: v for k, v in e.data.items() if isinstance(v, np.ndarray)}
+            label = f"{e.kind}{counts[e.kind]}"
+            found.append(Mark(e.kind, label, i, e.tolerance, e.converged, scalars, vectors, e.note))
     return tuple(found)
 
 

@@ -16,6 +16,9 @@ from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import Forcing
 from mjcont.vectorfield import VectorField
 
+# states in which an angle is told, and the change that counts as none
+_BESIDE, _SAME = 4, 1e-9
+
 
 class FieldFlow(ModelFlow):
     """The motion of a vector field, forced where it has a period."""
@@ -27,6 +30,18 @@ class FieldFlow(ModelFlow):
         self.forcing, self._periods = forcing, periods
         self.c, self.scale = field.n, field.state_scale
         self.forced = field.period is not None or forcing is not None
+
+    def turns(self, state: Array, values: Values) -> Array:
+        """Return a full turn for each component in which one changes nothing, though parts of one do, (n,)."""
+        beside = state + self.scale * np.cos(1.0 + np.arange(_BESIDE)[:, None] + np.arange(self.c))
+        phases, found = np.linspace(0.0, 1.0, _BESIDE), np.full(self.c, np.inf)
+        here = self.rates(beside, phases, values)
+        size = np.abs(here).max()
+        for i in range(self.c):
+            whole, part = (self.rates(beside + a * np.eye(self.c)[i], phases, values) for a in (2.0 * np.pi, 1.0))
+            if np.abs(whole - here).max() <= _SAME * size and np.abs(part - here).max() > _SAME * size:
+                found[i] = 2.0 * np.pi
+        return found
 
     def repeated(self) -> FieldFlow:
         """Return the same motion with twice the period of the forcing."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from abc import abstractmethod
 from typing import Any
 
+import numpy as np
+
 from mjcont.numerics.equations.differences import PARAMETER, kept_within
 from mjcont.numerics.equations.problem import Array, Range, Stencil, Values
 from mjcont.numerics.orbits.flow import Flow
@@ -13,6 +15,9 @@ from mjcont.oscillation.forced import FREQUENCY, Forcing, forcing_parameter, spl
 from mjcont.results.model import Model
 from mjcont.results.orbits import Reading
 from mjcont.results.quantities import Parameter
+
+# speed, relative to what a state's own size would bring about, that counts as none
+_AT_REST = 1e-6
 
 
 class ModelFlow(Flow):
@@ -34,6 +39,18 @@ class ModelFlow(Flow):
     @abstractmethod
     def repeated(self) -> ModelFlow:
         """Return the same motion with twice the period, where that is known."""
+
+    @abstractmethod
+    def turns(self, state: Array, values: Values) -> Array:
+        """Return a full turn for each entry of a state that is an angle, infinity for the others, (d,)."""
+
+    def at_rest(self, state: Array, values: Values) -> bool:
+        """Whether a state (d,) is one of rest, but for rounding, and stays one nearby."""
+        rates = self.derivatives(state[None], np.zeros(1), values, (), False)
+        speed = rates.value[0] if self.order == 1 else np.concatenate([state[self.c :], rates.value[0]])
+        size = np.abs(rates.jac[0]) @ self.scale
+        size = size if self.order == 1 else np.concatenate([self.scale[self.c :], size])
+        return bool(np.all(np.abs(speed) <= _AT_REST * np.maximum(size, 1e-300)))
 
     def state(self, state: Array) -> Array:
         """Return the model's state (nq,) of a state (d,)."""

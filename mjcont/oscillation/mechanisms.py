@@ -27,6 +27,11 @@ class MechanismFlow(ModelFlow):
         self.c, self.forced = mechanism.n, forcing is not None
         self.scale = np.concatenate([mechanism.state_scale, mechanism.state_scale])
 
+    def turns(self, state: Array, values: Values) -> Array:
+        """Return a full turn for each angle in which one changes no force, infinity for the others, (2 nv,)."""
+        places = self.mechanism.periods(state[: self.c], self.theirs(values))
+        return np.concatenate([places, np.full(self.c, np.inf)])
+
     def repeated(self) -> MechanismFlow:
         """Return the same motion with twice the period of the forcing."""
         f = self.forcing

@@ -9,27 +9,28 @@ import numpy as np
 
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction, start_from
-from mjcont.errors import BoundsError, ParameterError, StartError
+from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.follow import laid, orbit_near
 from mjcont.numerics.orbits.points import path_at
+from mjcont.oscillation.cycles import from_orbit
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import FREQUENCY, Harmonic, check_forcing, check_inputs, make_forcing
 from mjcont.oscillation.starts import response_path
-from mjcont.oscillation.walks import Options, Stop, flow_of, read_options, run
+from mjcont.oscillation.walks import Entry, Options, Stop, flow_of, read_options, run
 from mjcont.results.model import Model, check_bounds
-from mjcont.results.orbits import RESPONSES, CycleBranch
+from mjcont.results.orbits import RESPONSES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point, show
 from mjcont.vectorfield import VectorField
 
 
 @np.errstate(all="ignore")
 def continue_response(
-    problem: Model,
-    parameter: str,
+    problem: Model | OrbitPoint | SpecialOrbit | Orbit,
+    parameter: str | None = None,
     bounds: tuple[float, float] | None = None,
     forcing: Mapping[str, Harmonic] | None = None,
     start: Mapping[str, float] | Point | None = None,
@@ -46,8 +47,9 @@ def continue_response(
 
     Parameters
     ----------
-    problem : Mechanism or VectorField
-        A field with a `period` is forced as it stands.
+    problem : Mechanism or VectorField, or an orbit
+        A field with a `period` is forced as it stands. A PD of a response begins the curve of twice the period, a BPC
+        the other branch, any other orbit its own curve; its forcing is known.
     parameter : str
         The parameter to vary: "frequency" (1 / period, Hz), "NAME.amplitude" or "NAME.phase" of an input, or any
         parameter of the model; that of an input is its mean.
@@ -73,6 +75,12 @@ def continue_response(
     MjcontError, NameLookupError, BoundsError, ParameterError, StartError
         See their messages.
     """
+    if isinstance(problem, OrbitPoint | SpecialOrbit | Orbit):
+        if any(given is not None for given in (forcing, start, frequency, keyframe, state)):
+            raise MjcontError("an orbit has its forcing and is its own start: give the parameter and bounds alone")
+        return from_orbit(problem, parameter, bounds, direction, stop, progress, options)
+    if parameter is None:
+        raise MjcontError("name the parameter to vary: frequency, NAME.amplitude, or one of the model's")
     flow, values = _driven(problem, parameter, bounds, forcing, start, frequency)
     read = read_options(flow, options)
     low, high = _range(flow, parameter, bounds, values)
@@ -80,7 +88,7 @@ def continue_response(
     x, _ = start_from(problem, None, keyframe, start.state if isinstance(start, Point) and state is None else state)
     orbits, x = _first(flow, x, values, read)
     system = System(orbits, values, [Free(parameter, low, high, unit)])
-    entries = [(sign, x, system.start_y(), None) for sign in check_direction(direction)]
+    entries = [Entry(sign, x, system.start_y(), None) for sign in check_direction(direction)]
     return run(RESPONSES, system, entries, read, "the motion settled from its start", stop, progress)
 
 

@@ -92,9 +92,8 @@ def flow_of(problem: Model, forcing: Forcing | None = None) -> ModelFlow:
     return mechanism_flow(problem, forcing)
 
 
-def flow_for(branch: CycleBranch) -> ModelFlow:
-    """Return the motion that a curve of orbits belongs to."""
-    model, record = branch.model, branch.forcing
+def flow_for(model: Model, record: Mapping[str, Any]) -> ModelFlow:
+    """Return the motion of a model under forcing as files keep it."""
     periods = int(record.get("periods", 1))
     if not record.get("inputs"):
         return FieldFlow(model, None, periods) if isinstance(model, VectorField) else flow_of(model)
@@ -117,28 +116,42 @@ def point_stop(stop: Stop | None) -> Callable[[System, CurvePoint], str | None] 
     return ask
 
 
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """Where a curve is entered.
+
+    Attributes
+    ----------
+    direction : of the free parameter.
+    x, y : near the first orbit.
+    row : (n + k,) to correct along and to go; None takes the curve's own tangent there.
+    """
+
+    direction: float
+    x: Array
+    y: Array
+    row: Array | None
+
+
 def run(
     kind: str,
     system: System,
-    entries: Sequence[tuple[float, Array, Array, Array | None]],
+    entries: Sequence[Entry],
     options: Options,
     origin: str,
     stop: Stop | None = None,
     progress: Progress | None = None,
     notes: Sequence[str] = (),
 ) -> CycleBranch:
-    """Walk from each entry and collect the curve.
-
-    An entry has the direction in which the parameter first moves, x, y, and the row (n + k,) to correct along and to
-    go; None takes the curve's own tangent there.
-    """
+    """Walk from each entry and collect the curve."""
     traces: list[Trace] = []
     report = reporter(progress)
-    for direction, x, y, row in entries:
+    for entry in entries:
         if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
             break
         with np.errstate(all="ignore"):
-            way = along_parameter(system, x, y, direction) if row is None else row
+            x, y = entry.x, entry.y
+            way = along_parameter(system, x, y, entry.direction) if entry.row is None else entry.row
             first = entered(system, x, y, way, options.settings)
             if isinstance(first, Refused):
                 traces.append(Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}")))
@@ -147,7 +160,7 @@ def run(
             traces.append(trace_orbits(follower, system, first, report))
     if not any(t.points for t in traces):
         raise StartError("; ".join(t.end.message for t in traces))
-    directions = [e[0] for e in entries]
+    directions = [e.direction for e in entries]
     return collect(kind, system, traces, directions, origin, options.settings, options.meshes, notes)
 
 

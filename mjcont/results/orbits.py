@@ -59,6 +59,7 @@ class Orbit:
     name : the model's.
     problem : the Mechanism or VectorField, or None for a loaded file without one.
     shift : what coordinates gain in a period, (d,): zero but for running orbits.
+    forcing : what drives it, as `CycleBranch.forcing`.
     """
 
     path: Path
@@ -72,6 +73,7 @@ class Orbit:
     name: str
     problem: Model | None = field(repr=False, default=None)
     shift: Array = field(repr=False, default_factory=lambda: np.zeros(0))
+    forcing: Mapping[str, Any] = field(repr=False, default_factory=dict)
 
     @property
     def period(self) -> float:

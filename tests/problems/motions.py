@@ -49,3 +49,63 @@ def parametric_pendulum(w):
         return [u[1], -0.1 * u[1] - (1.0 + p["A"] * math.cos(p["w"] * t)) * math.sin(u[0])]
 
     return mc.VectorField(f, [0.0, 0.0], {"A": 0.1, "w": w}, period=lambda p: 2.0 * math.pi / p["w"])
+
+
+def van_der_pol(mu=1.0):
+    """Relaxation oscillator; all its linear cycles at mu = 0 have one period."""
+
+    def f(u, p):
+        return [u[1], p["mu"] * (1.0 - u[0] ** 2) * u[1] - u[0]]
+
+    return mc.VectorField(f, [2.0, 0.0], {"mu": mu}, names=["x", "v"])
+
+
+def rossler():
+    """A spiral that doubles its period, again and again, as c grows."""
+
+    def f(u, p):
+        return [-u[1] - u[2], u[0] + p["a"] * u[1], p["b"] + u[2] * (u[0] - p["c"])]
+
+    start = [4.733558125388612, -0.9420533365782291, 0.9420533365782291]
+    return mc.VectorField(f, start, {"a": 0.2, "b": 0.2, "c": 2.5}, names=["x", "y", "z"])
+
+
+def pendulum_under_torque(damping, torque):
+    """A pendulum that goes round and round; multiplier exp(-c T)."""
+
+    def f(u, p):
+        return [u[1], -p["c"] * u[1] - math.sin(u[0]) + p["torque"]]
+
+    return mc.VectorField(f, [0.0, 3.0], {"c": damping, "torque": torque}, names=["angle", "speed"])
+
+
+def reactions():
+    """The demo abc of AUTO: A -> B -> C in a stirred tank, with a steep relaxation cycle."""
+
+    def f(u, p):
+        e = math.exp(u[2])
+        return [
+            -u[0] + p["D"] * (1.0 - u[0]) * e,
+            -u[1] + p["D"] * e * (1.0 - u[0] - 0.04 * u[1]),
+            -u[2] - 1.55 * u[2] + p["D"] * 8.0 * e * (1.0 - u[0] + 0.04 * u[1]),
+        ]
+
+    return mc.VectorField(f, [0.2, 0.1, 1.0], {"D": 0.24}, names=["a", "b", "heat"])
+
+
+def ziegler_rods():
+    """The column of two rods under a follower load, as a vector field."""
+
+    def f(u, p):
+        q1, q2, w1, w2 = u
+        c, coupling, s, v2 = 0.1, 0.5 * math.cos(q2), math.sin(q2), w1 + w2
+        forces = (
+            -q1 - c * w1 + q2 + c * w2 - p["P"] * s + 0.5 * s * v2**2,
+            -q2 - c * w2 - 0.5 * s * w1**2,
+        )
+        det = 4.0 / 9.0 - coupling**2
+        a1 = (forces[0] / 3.0 - forces[1] * coupling) / det
+        a2 = (forces[1] * 4.0 / 3.0 - forces[0] * coupling) / det
+        return [w1, w2, a1, a2 - a1]
+
+    return mc.VectorField(f, [0.0] * 4, {"P": 1.5}, names=["q1", "q2", "w1", "w2"])

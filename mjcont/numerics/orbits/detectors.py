@@ -94,7 +94,8 @@ class BranchOfCycles:
         unfolding = abs(float(found.data.pop("unfolding")))
         if unfolding > _IMPERFECT:
             return _OTHER_BRANCH
-        found.data["kernel"] = condition.null(found.point.local)[0]
+        slope = self.system.free[0].slope(float(found.point.y[0]))
+        found.data["tangent"] = found.point.tangent * np.append(self.system.problem.state_scale, slope)
         return found if unfolding <= _UNFOLDED else None
 
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found | Refused:

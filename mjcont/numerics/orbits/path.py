@@ -91,8 +91,11 @@ class Path:
         w = h * self.rates(points).reshape(len(lengths), self.scheme.degree, self.c)
         return Path(self.scheme, self.order, mesh, self.states(mesh), w, self.period)
 
-    def repeated(self, shift: Array) -> Path:
-        """Return the orbit twice, as one of twice the period; `shift` (d,) is what it gains in a period."""
+    def repeated(self, shift: Array, sign: float = 1.0) -> Path:
+        """Return the orbit twice, as one of twice the period; `shift` (d,) is what it gains in a period.
+
+        A deviation that changes its sign over a period has `sign` -1.
+        """
         mesh = np.concatenate([0.5 * self.mesh, 0.5 + 0.5 * self.mesh[1:]])
-        s = np.concatenate([self.s, self.s[1:] + shift])
-        return Path(self.scheme, self.order, mesh, s, np.concatenate([self.w, self.w]), 2.0 * self.period)
+        s = np.concatenate([self.s, sign * self.s[1:] + shift])
+        return Path(self.scheme, self.order, mesh, s, np.concatenate([self.w, sign * self.w]), 2.0 * self.period)
