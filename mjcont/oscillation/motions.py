@@ -146,8 +146,13 @@ def _cycle_in(
         found: Array = motion.dense(begin + tau * period).T - whole
         return found
 
-    path = sampled_path(flow, meshes.scheme, meshes.first, states, period, values)
-    point = orbit_near(flow, path, values, shift, meshes)
+    steps = (motion.times[motion.times > begin] - begin) / period
+    point = None
+    for count in (meshes.first, 4 * meshes.first, meshes.most):  # a stiff cycle's jumps want more intervals
+        path = sampled_path(flow, meshes.scheme, min(count, meshes.most), states, period, values, steps)
+        point = orbit_near(flow, path, values, shift, meshes)
+        if point is not None or count >= meshes.most or meshes.fixed:
+            break
     if point is None:
         return None
     found = path_at(point)

@@ -79,10 +79,21 @@ def hopf_vector(flow: ModelFlow, point: SpecialPoint) -> tuple[Array, Array, flo
 
 
 def sampled_path(
-    flow: ModelFlow, scheme: Scheme, count: int, states: Callable[[Array], Array], period: float, values: Values
+    flow: ModelFlow,
+    scheme: Scheme,
+    count: int,
+    states: Callable[[Array], Array],
+    period: float,
+    values: Values,
+    steps: Array | None = None,
 ) -> Path:
-    """Return a motion as polynomials on a mesh on which it moves evenly; `states` takes tau (k,) to states (k, d)."""
+    """Return a motion as polynomials on a mesh on which it moves evenly; `states` takes tau (k,) to states (k, d).
+
+    `steps` are places, from 0 to 1, between which the motion is smooth.
+    """
     tau = np.linspace(0.0, 1.0, _SAMPLES)
+    if steps is not None:
+        tau = np.unique(np.clip(np.concatenate([tau[:: _SAMPLES // 20], steps]), 0.0, 1.0))
     mesh = first_mesh(states(tau), tau, count)
     lengths = np.diff(mesh)
     points = (mesh[:-1, None] + lengths[:, None] * scheme.c).ravel()

@@ -21,9 +21,10 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.detectors import cycle_detectors
 from mjcont.numerics.orbits.flow import Flow
+from mjcont.numerics.orbits.linger import lingering
 from mjcont.numerics.orbits.mesh import count_for, equidistributed, error_of
 from mjcont.numerics.orbits.path import Path
-from mjcont.numerics.orbits.points import error_at, orbits_at, path_at
+from mjcont.numerics.orbits.points import error_at, multipliers_at, orbits_at, path_at
 from mjcont.numerics.orbits.scheme import Scheme
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.step.arclength import CurvePoint, point_from
@@ -34,11 +35,15 @@ from mjcont.numerics.walk.trace import Trace, Walker
 
 # a new mesh is to have this part of the tolerance, so that it lasts
 _LASTS = 0.1
-_MOST_MESHES = 6
+_MOST_MESHES = 8
+# on the largest mesh intervals are moved as long as the error falls below this part of itself
+_BETTER = 0.5
 # an orbit smaller than this, relative to its sizes, or one that turned to its opposite, has shrunk to a point
 _SMALL, _OPPOSITE = 1e-5, -0.5
 # the phase condition is renewed where the orbit's velocity has turned from the reference's by more than this cosine
 _STALE = 0.8
+# where the multiplier 1 has this error and the period has grown so much, it grows without bound
+_BLURRED, _LONGER = 1e-5, 2.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,20 +100,23 @@ def orbit_near(
     flow: Flow, path: Path, values: Values, shift: Array, meshes: MeshSettings
 ) -> CurvePoint | None:
     """Return the orbit near a path at parameter values, as a point; None where there is none."""
-    none = np.zeros(0)
+    none, found, before = np.zeros(0), None, math.inf
     for _ in range(_MOST_MESHES):
         orbits: Orbits = laid(flow, path, shift)
         system = System(orbits, values, ())
         c = solve(system, orbits.joined(path), none, tol=1e-12, reach=10.0)
         if c.failure is not None:
-            return None
+            return found
         path = orbits.path(c.x, values)
-        error = error_of(path, orbits.sizes)
-        if error <= meshes.tol or len(path.w) >= meshes.most or meshes.fixed:
-            return CurvePoint(c.x, none, none, 1.0, c.local, None, error=c.error)
-        count = min(max(count_for(path, error, _LASTS * meshes.tol), len(path.w)), meshes.most, 2 * len(path.w))
+        error, count = error_of(path, orbits.sizes), len(path.w)
+        if error < before:
+            found = CurvePoint(c.x, none, none, 1.0, c.local, None, error=c.error)
+        if error <= meshes.tol or meshes.fixed or (count >= meshes.most and not error < _BETTER * before):
+            return found
+        before = error
+        count = min(max(count_for(path, error, _LASTS * meshes.tol), count), meshes.most, 2 * count)
         path = path.carried(equidistributed(path, orbits.sizes, count))
-    return None
+    return found
 
 
 def entered(system: System, x: Array, y: Array, row: Array, settings: Settings, s: float = 0.0) -> CurvePoint | Refused:
@@ -191,9 +199,8 @@ class Follower:
             self._ending = End(Status.STOPPED, sentence)
         elif before is not None and _shrunk(before, p):
             self._ending = End(Status.AT_REST, "the orbit shrinks to a point")
-        elif orbits_at(p).own_period and _period(p) > longest:
-            self._ending = End(Status.PERIOD, f"the period {_period(p):.6g} s exceeds {self.meshes.period_max:g} times "
-                               "the first: a homoclinic orbit or a saddle-node on the cycle is near")
+        elif orbits_at(p).own_period and (_period(p) > longest or _blurred(p, longest / self.meshes.period_max)):
+            self._ending = End(Status.PERIOD, _without_bound(p))
         elif error_at(p) > self.meshes.tol and not self.meshes.fixed:
             self._wants = "mesh"
         elif _stale(p):
@@ -223,6 +230,19 @@ class Follower:
                 return End(Status.MESH, f"the orbit was lost where its mesh was laid anew: {found}")
             system, point = moved, found
         return system, point
+
+
+def _blurred(p: CurvePoint, first: float) -> bool:
+    """Whether an orbit takes so much longer than the first that its multipliers have lost their digits."""
+    m = multipliers_at(p)
+    return _period(p) > _LONGER * first and not abs(m.values[m.trivial] - 1.0) <= _BLURRED
+
+
+def _without_bound(p: CurvePoint) -> str:
+    """Return the sentence on a curve that ends where its period grows without bound."""
+    orbits, values = orbits_at(p), p.local.values
+    where = lingering(orbits.flow, path_at(p), values, orbits.sizes)
+    return f"the period grows without bound, to {_period(p):.6g} s: {where} (homoclinic orbit or saddle-node on a cycle)"
 
 
 def _period(p: CurvePoint) -> float:

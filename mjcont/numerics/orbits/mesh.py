@@ -21,6 +21,8 @@ _ROUNDING = 1e-15
 # measured on orbits that are known: decay is quicker than the coefficients at hand tell
 _QUICKER = 1e-2
 _MARGIN = 1.3
+# what the number of samples counts beside the length of their way in a first mesh
+_COUNTED = 2.0
 
 
 def _coefficients(path: Path, sizes: Array) -> Array:
@@ -60,9 +62,13 @@ def equidistributed(path: Path, sizes: Array, count: int) -> Array:
 
 
 def first_mesh(samples: Array, tau: Array, count: int) -> Array:
-    """Return a mesh of `count` intervals on which samples (k, d) at tau (k,) move by about equal lengths."""
+    """Return a mesh of `count` intervals on which samples (k, d) at tau (k,) move by about equal lengths.
+
+    Samples count themselves, too: an integrator took more of them where the motion bends.
+    """
     spread = np.linalg.norm(np.diff(samples, axis=0) / np.maximum(np.ptp(samples, axis=0), 1e-300), axis=1)
-    return _levelled(tau, spread + 0.5 * (spread.sum() or 1.0) * np.diff(tau), count)  # rest moves nowhere
+    whole = spread.sum() or 1.0  # rest moves nowhere
+    return _levelled(tau, spread + whole * (0.5 * np.diff(tau) + _COUNTED / len(spread)), count)
 
 
 def _levelled(mesh: Array, shares: Array, count: int) -> Array:
