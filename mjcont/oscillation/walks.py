@@ -30,6 +30,8 @@ from mjcont.vectorfield import VectorField
 # the corrector's: multipliers are read off derivatives at its last iterate
 _CORRECTED = 1e-10
 _INTERVALS = 20
+# a parameter that moves by less along the tangent turns there
+_TURNS = 1e-3
 _OWN = ("mesh", "degree", "scheme", "tol", "period_max", "mesh_max")
 Stop = Callable[[OrbitPoint], str | None]
 
@@ -165,6 +167,13 @@ def run(
 
 
 def along_parameter(system: System, x: Array, y: Array, direction: float) -> Array:
-    """Return the unit tangent (n + k,) in which the free parameter grows (direction > 0) or falls."""
+    """Return the row (n + k,) along which a curve is entered so that the free parameter grows (direction > 0) or falls.
+
+    It keeps the parameter where it is, unless the curve turns there: then it is the tangent.
+    """
     tangent = tangent_at(system, system.local(x, y), y)
-    return tangent if tangent[system.n] * direction >= 0.0 else -tangent
+    if abs(tangent[system.n]) <= _TURNS:
+        return tangent if tangent[system.n] * direction >= 0.0 else -tangent
+    row = np.zeros_like(tangent)
+    row[system.n] = direction
+    return row

@@ -19,10 +19,10 @@ from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.collocation import Orbits
-from mjcont.numerics.orbits.detectors import cycle_detectors
 from mjcont.numerics.orbits.flow import Flow
 from mjcont.numerics.orbits.linger import lingering
 from mjcont.numerics.orbits.mesh import count_for, equidistributed, error_of
+from mjcont.numerics.orbits.passing import cycle_detectors
 from mjcont.numerics.orbits.path import Path
 from mjcont.numerics.orbits.points import error_at, multipliers_at, orbits_at, path_at
 from mjcont.numerics.orbits.scheme import Scheme
@@ -242,7 +242,7 @@ def _without_bound(p: CurvePoint) -> str:
     """Return the sentence on a curve that ends where its period grows without bound."""
     orbits, values = orbits_at(p), p.local.values
     where = lingering(orbits.flow, path_at(p), values, orbits.sizes)
-    return f"the period grows without bound, to {_period(p):.6g} s: {where} (homoclinic orbit or saddle-node on a cycle)"
+    return f"the period grows without bound, to {_period(p):.6g} s: {where} (homoclinic, or a saddle-node on a cycle)"
 
 
 def _period(p: CurvePoint) -> float:
