@@ -9,6 +9,7 @@ nothing is aligned with, N bends one coordinate after the other, and so periods,
 from __future__ import annotations
 
 import math
+from operator import mul
 
 import numpy as np
 
@@ -32,20 +33,21 @@ class Seen:
         u[1:] += _BENT * w[:-1] ** 2
         return u
 
-    def straight(self, u):
-        w = np.array(u, dtype=float)
-        for i in range(1, len(w)):
-            w[i] = u[i] - _BENT * w[i - 1] ** 2
-        return self.inverse @ w, w
-
     def field(self, g):
         """Return u' of v' = g(v, p, t)."""
+        there, back, later = self.matrix.tolist(), self.inverse.tolist(), range(1, len(self.matrix))
 
         def f(u, p, t):
-            v, w = self.straight(u)
-            rates = self.matrix @ np.array(g(v, p, t))
-            rates[1:] += 2.0 * _BENT * w[:-1] * rates[:-1]
-            return rates
+            w = list(u)
+            for i in later:
+                w[i] = u[i] - _BENT * w[i - 1] ** 2
+            v = [sum(map(mul, row, w)) for row in back]
+            g_v = g(v, p, t)
+            rates = [sum(map(mul, row, g_v)) for row in there]
+            bent = rates[:1]
+            for i in later:
+                bent.append(rates[i] + 2.0 * _BENT * w[i - 1] * rates[i - 1])
+            return bent
 
         return f
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -42,8 +42,12 @@ ON_CIRCLE = 1e-7
 _ON_AXIS, _RESONANT = 1e-6, 1e-3
 # pieces shorter than this are not halved; what is nearer than this to a fold is that fold's own multiplier
 _TOGETHER, _OWN = 1e-6, 1e-5
+# sine of the angle of a pair below which its matrix is nearly singular twice
+_AT_RESONANCE = 1e-3
 # imaginary parts below this are rounding of a double real multiplier
 _REAL = 1e-5
+# around several that pass together: halvings of the step, part of it and number of orbits to interpolate from
+_HALVINGS, _AROUND, _SAMPLES = 6, 0.1, 6
 _UNSEEN = Refused(Why.CROWDED_POINTS, "multipliers pass the unit circle and no point is found where they do")
 _RESONANCES = {1: 0.0, 2: math.pi, 3: 2.0 * math.pi / 3.0, 4: math.pi / 2.0}
 Piece = tuple[CurvePoint, CurvePoint]
@@ -96,11 +100,7 @@ class Crossing:
 
     def _one_passes(self, old: CurvePoint, new: CurvePoint) -> bool:
         (a, p), (b, q) = self.value(old), self.value(new)
-        if abs(a - b) == 2:
-            few, many = (old, new) if a < b else (new, old)
-            extra = _changed(few, many)
-            return bool((np.abs(extra.imag) > _REAL).all()) and (p - q) % 2 == 0
-        return abs(a - b) == 1 and abs(p - q) <= 1
+        return _pair(old, new) or (abs(a - b) == 1 and abs(p - q) <= 1)
 
     def _in(self, piece: Piece, explained: int) -> Located | Refused | None:
         """Return the point in a piece, None where what passes there is that of folds and branch points."""
@@ -109,23 +109,42 @@ class Crossing:
         if p == q and abs(a - b) == explained:
             return None
         if abs(a - b) == 1 or new.s - old.s >= _TOGETHER:
-            result = bisect(self.system, old, new, self._differs, self._settle, self.settings)
+            settle = self._pair_passes if _pair(old, new) else self._one_doubles
+            result = bisect(self.system, old, new, self._differs, settle, self.settings)
             if result is not None:
                 return result
         if abs(a - b) < 2:
             return _UNSEEN
         return _several(self.system, old, new, self.settings) or _UNSEEN
 
-    def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | Refused | None:
+    def _near(self, old: CurvePoint, new: CurvePoint) -> tuple[Corrected, complex] | None:
         near = approximate(self.system, old, new, _fraction(old, new), self.settings)
         mu = None if near.failure is not None else _nearest(near, self.system)
-        if mu is None or (mu.imag == 0.0 and mu.real > 0.0):
+        return None if mu is None else (near, mu)
+
+    def _one_doubles(self, old: CurvePoint, new: CurvePoint) -> Located | Refused | None:
+        near = self._near(old, new)
+        if near is None or near[1].imag != 0.0 or near[1].real > 0.0:
             return None
-        if mu.imag == 0.0:
-            doubling = located(self.system, old, new, near, "PD", PeriodDoubling(near.local))
-            return None if doubling is None else doubling[0]
-        pair = located(self.system, old, new, near, "NS", Torus(near.local, abs(float(np.angle(mu)))))
-        return None if pair is None else _with_angle(pair[0], float(pair[1][0]))
+        found = located(self.system, old, new, near[0], "PD", PeriodDoubling(near[0].local))
+        return None if found is None else found[0]
+
+    def _pair_passes(self, old: CurvePoint, new: CurvePoint) -> Located | Refused | None:
+        near = self._near(old, new)
+        if near is None:
+            return None
+        theta = abs(float(np.angle(near[1])))
+        if math.sin(theta) < _AT_RESONANCE:
+            return _several(self.system, old, new, self.settings)
+        found = located(self.system, old, new, near[0], "NS", Torus(near[0].local, theta))
+        return None if found is None else _with_angle(found[0], float(found[1][0]))
+
+
+def _pair(old: CurvePoint, new: CurvePoint) -> bool:
+    """Whether it is one complex pair that passes between two points."""
+    few, many = sorted((old, new), key=lambda p: len(_outside(p)))
+    passing = _changed(few, many)
+    return len(passing) == 2 and bool((np.abs(passing.imag) > _REAL).all())
 
 
 def _outside(point: CurvePoint) -> Array:
@@ -204,40 +223,65 @@ def _with_angle(found: Located, theta: float) -> Located | None:
 
 
 def _several(system: System, old: CurvePoint, new: CurvePoint, settings: Settings) -> Located | None:
-    """Return the point at which several multipliers pass together: the mean of their log |mu| vanishes there."""
+    """Return the point at which several multipliers pass together: the mean of their log |mu| vanishes there.
+
+    The curve's equations may be singular at the point itself: it is interpolated from orbits around it.
+    """
     first, last = sorted((len(_outside(old)), len(_outside(new))))
-    reached: dict[float, Corrected] = {}
 
-    def mean(fraction: float) -> float:
+    def at(fraction: float) -> tuple[float, Corrected] | None:
         near = approximate(system, old, new, fraction, settings)
-        if near.failure is not None:
-            return math.nan
-        reached[fraction] = near
-        return float(_sizes(_point(near, system))[first:last].mean())
+        return None if near.failure is not None else (_mean(_point(near, system), first, last), near)
 
-    a, b = (float(_sizes(p)[first:last].mean()) for p in (old, new))
-    if not a * b < 0.0:
+    low, high = 0.0, 1.0
+    rises = _mean(old, first, last) < 0.0
+    for _ in range(_HALVINGS):
+        middle = at(0.5 * (low + high))
+        if middle is None:
+            break
+        low, high = (0.5 * (low + high), high) if (middle[0] < 0.0) == rises else (low, 0.5 * (low + high))
+    begin = min(max(0.5 * (low + high) - 0.5 * _AROUND, 0.0), 1.0 - _AROUND)
+    places = begin + _AROUND * np.linspace(0.02, 0.98, _SAMPLES)
+    seen = [(t, *found) for t in places.tolist() if (found := at(t)) is not None]
+    if len(seen) < _SAMPLES - 2:
         return None
-    try:
-        at = float(brentq(lambda t: a if t <= 0.0 else b if t >= 1.0 else mean(t), 0.0, 1.0, xtol=1e-12))
-    except ValueError:
+    means = np.array([m for _, m, _ in seen])
+    if means.min() > 0.0 or means.max() < 0.0:
         return None
-    near = reached.get(at) or approximate(system, old, new, min(max(at, 1e-9), 1.0 - 1e-9), settings)
-    s = within(system, old, new, near) if near.failure is None else None
-    if s is None:
-        return None
-    few, many = (old, new) if len(_outside(old)) < len(_outside(new)) else (new, old)
-    return _named(point_at(system, old, new, near, s), _changed(few, many), near.step)
+    fractions = np.array([t for t, _, _ in seen])
+    root = float(brentq(lambda t: float(_interpolated(fractions, means, t)), fractions[0], fractions[-1], xtol=1e-14))
+    x, y = (_interpolated(fractions, np.array(v), root) for v in zip(*((c.x, c.y) for _, _, c in seen), strict=True))
+    c = Corrected(x, y, system.local(x, y), None, 0, 0.0, 1e-10, 0.0)
+    c = replace(c, error=system.error(c.local, x, y))
+    few, many = sorted((old, new), key=lambda p: len(_outside(p)))
+    there = multipliers_at(_point(c, system)).tested
+    there = there[np.argsort(-np.abs(there), kind="stable")][first:last]
+    s = within(system, old, new, c)
+    return None if s is None else _named(point_at(system, old, new, c, s), _changed(few, many), there, c.step)
 
 
-def _named(point: CurvePoint, passing: Array, tolerance: float) -> Located:
-    """Return the located point at which multipliers pass together, by the kind that these tell."""
+def _mean(point: CurvePoint, first: int, last: int) -> float:
+    """Return the mean of log |mu| of some of the resolved multipliers, the largest being the first."""
+    return float(_sizes(point)[first:last].mean())
+
+
+def _interpolated(places: Array, values: Array, at: float) -> Array:
+    """Return the polynomial through values (k, ...) at places (k,), read at another."""
+    apart = places[:, None] - places
+    np.fill_diagonal(apart, 1.0)
+    parts = np.tile(at - places, (len(places), 1)) / apart
+    np.fill_diagonal(parts, 1.0)
+    found: Array = np.tensordot(parts.prod(axis=1), values, axes=1)
+    return found
+
+
+def _named(point: CurvePoint, passing: Array, there: Array, tolerance: float) -> Located:
+    """Return the located point at which multipliers pass together, by the kind that these tell beside it."""
     how = f"{len(passing)} multipliers pass together"
     if (np.abs(passing.imag) > _REAL).any():
-        theta = float(np.abs(np.angle(passing)).mean())
+        theta = float(np.abs(np.angle(there)).mean())
         data: dict[str, Any] = {"theta": theta, "rotation": theta / (2.0 * math.pi)}
-        resonance = _resonance(theta)
-        return Located("NS", point, tolerance, True, data, f"{how}; {resonance}" if resonance else how)
+        return Located("NS", point, tolerance, True, data, _resonance(theta) or how)
     kind, where = ("PD", "-1") if passing.real.mean() < 0.0 else ("BPC", "1")
     return Located(kind, point, tolerance, False, {}, f"{len(passing)} multipliers pass {where} together")
 
