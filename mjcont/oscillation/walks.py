@@ -28,7 +28,7 @@ from mjcont.results.orbits import CycleBranch, OrbitPoint
 from mjcont.vectorfield import VectorField
 
 # the corrector's: multipliers are read off derivatives at its last iterate
-_CORRECTED = 1e-10
+_CORRECTED = 1e-8
 _INTERVALS = 20
 # a parameter that moves by less along the tangent turns there
 _TURNS = 1e-3

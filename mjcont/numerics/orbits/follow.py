@@ -30,7 +30,7 @@ from mjcont.numerics.points.events import Located
 from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.onebyone import OneByOne
-from mjcont.numerics.walk.steps import End, Item, Neutral, Status
+from mjcont.numerics.walk.steps import End, Item, Leap, Neutral, Status
 from mjcont.numerics.walk.trace import Trace, Walker
 
 # a new mesh is to have this part of the tolerance, so that it lasts
@@ -125,6 +125,15 @@ def entered(system: System, x: Array, y: Array, row: Array, settings: Settings, 
     return c.failure if c.failure is not None else point_from(c, row, s)
 
 
+class OrbitByOrbit(OneByOne):
+    """Steps in which derivatives are taken once, at the orbit itself: they cost as much as dozens of corrections."""
+
+    def learn(self, leap: Leap) -> None:
+        """Go back to the last orbit's derivatives, whatever the last step asked for."""
+        del leap
+        self._fresh = False
+
+
 @dataclass(slots=True)
 class Follower:
     """Follows a curve of orbits in one direction.
@@ -162,7 +171,7 @@ class Follower:
             )
             first = point
             walker = Walker(
-                OneByOne(system, left, cycle_detectors(system, left)),
+                OrbitByOrbit(system, left, cycle_detectors(system, left)),
                 lambda p, system=system, first=first: self._look(system, p, first, longest),  # type: ignore[misc]
             )
             end: End | None = None
