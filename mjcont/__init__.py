@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from mjcont.curves.search import find_equilibria
     from mjcont.curves.stiffness import stiffness_study
     from mjcont.drawing.animation import animate
+    from mjcont.drawing.orbits import plot_orbits
     from mjcont.drawing.plotting import plot
     from mjcont.drawing.poses import add_poses, draw, draw_poses
     from mjcont.influence.critical import follow_point
@@ -80,6 +81,7 @@ _HOMES = {
     "mjcont.curves.search": ("find_equilibria",),
     "mjcont.curves.stiffness": ("stiffness_study",),
     "mjcont.drawing.animation": ("animate",),
+    "mjcont.drawing.orbits": ("plot_orbits",),
     "mjcont.drawing.plotting": ("plot",),
     "mjcont.drawing.poses": ("add_poses", "draw", "draw_poses"),
     "mjcont.influence.critical": ("follow_point",),
@@ -183,6 +185,7 @@ __all__ = [
     "load_path",
     "load_study",
     "plot",
+    "plot_orbits",
     "run_study",
     "sensitivities",
     "set_constraint_stiffness",

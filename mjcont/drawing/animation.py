@@ -26,6 +26,7 @@ from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.branch import Branch
 from mjcont.results.histories import History
+from mjcont.results.orbits import Orbit, OrbitPoint, SpecialOrbit, orbit_of
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -35,12 +36,14 @@ RENDERINGS = ("drawing", "mujoco")
 _DPI = 100.0
 _MOST_FRAMES, _SIDES = 5000, (64, 4096)
 _SECONDS, _REAL_TIME = 8.0, (2.0, 20.0)
+# samples of a period between which an animation moves in straight lines
+_SMOOTH = 401
 _TIGHT = 0.03
 _MOVING = "#d1281f"
 
 
 def animate(
-    result: Result,
+    result: Result | Orbit | OrbitPoint | SpecialOrbit,
     path: str | Path,
     x: str | None = None,
     y: str | None = None,
@@ -58,11 +61,12 @@ def animate(
     """Write an animation of a mechanism beside the moving point on its diagram, as GIF or MP4, and return its path.
 
     A history moves evenly in time. Along a branch, a locus or a load path the point moves evenly over the diagram; the
-    motions of a load path's jumps are shown, each at its own pace.
+    motions of a load path's jumps are shown, each at its own pace. An orbit goes once through its period, so that the
+    movie loops without a seam.
 
     Parameters
     ----------
-    result : History, Branch or LoadPath
+    result : History, Branch, LoadPath, Orbit or a point of a curve of orbits
     path : a .gif, or an .mp4 where ffmpeg is installed; written whole or not at all.
     x, y : str, optional
         Columns of the diagram. Default time against the first observable for a history, else the parameter against
@@ -86,12 +90,16 @@ def animate(
         no such column, camera or rendering, or a drawing is asked of a mechanism that does not move in a plane.
     """
     path, beneath = Path(path), _branches(on)
+    loops = isinstance(result, Orbit | OrbitPoint | SpecialOrbit)
+    if isinstance(result, Orbit | OrbitPoint | SpecialOrbit):
+        result = orbit_of(result).history(_SMOOTH)
     _check_options(fps, seconds, size, rendering, camera)
     check_movie(path, fps)
     columns = _columns(result, beneath, x, y)
     track = track_of(result, *columns)
     length = seconds if seconds is not None else _length(result)
-    frames = frames_of(track, _count(length, fps))
+    # the last moment of a period is its first
+    frames = frames_of(track, _count(length, fps) + loops)[: -1 if loops else None]
     actor: _Drawn | _Rendered = _Rendered(track, camera) if rendering == "mujoco" else _Drawn(track, frames, plane)
     try:
         stage = _Stage(result, beneath, track, columns, size, degrees, actor)

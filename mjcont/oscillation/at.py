@@ -12,7 +12,7 @@ from mjcont.numerics.orbits.path import Path
 from mjcont.oscillation.collect import make_orbit, verdict
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.walks import flow_for
-from mjcont.results.orbits import CycleBranch, Orbit, OrbitPoint
+from mjcont.results.orbits import CycleBranch, Orbit, OrbitPoint, point_of
 
 
 @np.errstate(all="ignore")
@@ -55,5 +55,4 @@ def settled(
         return None
     orbit = make_orbit(point)
     word, count = verdict(orbit)
-    return OrbitPoint(orbit.parameters, {}, flow.state(orbit.path.s[0]), orbit.multipliers, word, count, orbit.problem,
-                      orbit.units, orbit)
+    return point_of(orbit, flow.state(orbit.path.s[0]), word, count)

@@ -171,7 +171,7 @@ def _columns(flow: ModelFlow, orbits: Sequence[Orbit], system: System) -> dict[s
     found["period"] = Column("period", "s", "orbit", _frozen([o.period for o in orbits]))
     if "frequency" not in found:
         found["frequency"] = Column("frequency", "Hz", "orbit", _frozen([o.frequency for o in orbits]))
-    read = [readings(o, flow.forced) for o in orbits]
+    read = [readings(o.path, o.reading, flow.forced) for o in orbits]
     for k, (name, o) in enumerate(flow.model.observables.items()):
         for what in read[0]:
             unit = "rad" if what == "phase" else o.unit

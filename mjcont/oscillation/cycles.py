@@ -202,7 +202,8 @@ def _motion(
     if not isinstance(start, History):
         x, values = start_from(problem, start, keyframe, state)
         return x, values, None
-    given = {n: float(c.values[-1]) for n, c in start.columns.items() if c.role == "input" and n in problem.parameters}
+    moved = (c for c in start.columns.values() if c.role == "parameter" and c.name in problem.parameters)
+    given = {c.name: float(c.values[-1]) for c in moved}
     values = problem.values({k: v for k, v in {**start.fixed, **given}.items() if k in problem.parameters})
     last = [start.states[-1], start.velocities[-1]] if problem.second_order else [start.states[-1]]
     time = start["time"]

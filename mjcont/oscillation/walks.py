@@ -19,12 +19,12 @@ from mjcont.numerics.orbits.scheme import GAUSS, RADAU, SCHEMES, scheme
 from mjcont.numerics.step.arclength import CurvePoint, tangent_at
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace
-from mjcont.oscillation.collect import collect, make_orbit, reporter, verdict
+from mjcont.oscillation.collect import collect, flow_at, make_orbit, reporter, verdict
 from mjcont.oscillation.fields import FieldFlow
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import Forcing, Harmonic, make_forcing
 from mjcont.results.model import Model
-from mjcont.results.orbits import CycleBranch, OrbitPoint
+from mjcont.results.orbits import CycleBranch, OrbitPoint, point_of
 from mjcont.vectorfield import VectorField
 
 # the corrector's: multipliers are read off derivatives at its last iterate
@@ -112,8 +112,7 @@ def point_stop(stop: Stop | None) -> Callable[[System, CurvePoint], str | None] 
         del system
         orbit = make_orbit(point)
         word, count = verdict(orbit)
-        return stop(OrbitPoint(orbit.parameters, {}, orbit.path.s[0], orbit.multipliers, word, count, orbit.problem,
-                               orbit.units, orbit))
+        return stop(point_of(orbit, flow_at(point).state(orbit.path.s[0]), word, count))
 
     return ask
 
