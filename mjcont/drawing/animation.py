@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
+Orbits = Orbit | OrbitPoint | SpecialOrbit
 RENDERINGS = ("drawing", "mujoco")
 _DPI = 100.0
 _MOST_FRAMES, _SIDES = 5000, (64, 4096)
@@ -43,7 +44,7 @@ _MOVING = "#d1281f"
 
 
 def animate(
-    result: Result | Orbit | OrbitPoint | SpecialOrbit,
+    result: Result | Orbits,
     path: str | Path,
     x: str | None = None,
     y: str | None = None,
@@ -61,13 +62,12 @@ def animate(
     """Write an animation of a mechanism beside the moving point on its diagram, as GIF or MP4, and return its path.
 
     A history moves evenly in time. Along a branch, a locus or a load path the point moves evenly over the diagram; the
-    motions of a load path's jumps are shown, each at its own pace. An orbit goes once through its period, so that the
-    movie loops without a seam.
+    motions of a load path's jumps are shown, each at its own pace. An orbit loops through its period without a seam.
 
     Parameters
     ----------
     result : History, Branch, LoadPath, Orbit or a point of a curve of orbits
-    path : a .gif, or an .mp4 where ffmpeg is installed; written whole or not at all.
+    path : a .gif, or an .mp4 where ffmpeg is installed.
     x, y : str, optional
         Columns of the diagram. Default time against the first observable for a history, else the parameter against
         the first observable, for a locus its two parameters.
@@ -85,20 +85,17 @@ def animate(
 
     Raises
     ------
-    MjcontError
-        If the suffix, a number, or the result is not one that can be shown, ffmpeg or OpenGL is missing, there is
-        no such column, camera or rendering, or a drawing is asked of a mechanism that does not move in a plane.
+    MjcontError, NameLookupError
+        If the suffix, a number or the result is not one that can be shown, ffmpeg or OpenGL is missing, there is no
+        such column, camera or rendering, or a drawing is asked of a mechanism that does not move in a plane.
     """
     path, beneath = Path(path), _branches(on)
-    loops = isinstance(result, Orbit | OrbitPoint | SpecialOrbit)
-    if isinstance(result, Orbit | OrbitPoint | SpecialOrbit):
-        result = orbit_of(result).history(_SMOOTH)
+    result, loops = _period(result)
     _check_options(fps, seconds, size, rendering, camera)
     check_movie(path, fps)
     columns = _columns(result, beneath, x, y)
     track = track_of(result, *columns)
     length = seconds if seconds is not None else _length(result)
-    # the last moment of a period is its first
     frames = frames_of(track, _count(length, fps) + loops)[: -1 if loops else None]
     actor: _Drawn | _Rendered = _Rendered(track, camera) if rendering == "mujoco" else _Drawn(track, frames, plane)
     try:
@@ -107,6 +104,11 @@ def animate(
         return write_movie(path, lambda k: stage.image(frames[k], k), len(frames), fps, progress)
     finally:
         actor.close()
+
+
+def _period(result: Result | Orbits) -> tuple[Result, bool]:
+    """Return what is shown, of an orbit its history, and whether its last moment is its first."""
+    return (orbit_of(result).history(_SMOOTH), True) if isinstance(result, Orbits) else (result, False)
 
 
 def _columns(result: Result, beneath: Sequence[Branch], x: str | None, y: str | None) -> tuple[str, str]:

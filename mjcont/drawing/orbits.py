@@ -93,7 +93,7 @@ def _of_curve(branch: CycleBranch, n: int, colored: bool, scales: list[tuple[Cyc
     if colored and high > low:
         scales.append((branch, scale))
     rows = sorted({round(i) for i in np.linspace(0, len(branch) - 1, min(n, len(branch)))})
-    color = [scale.to_rgba(float(turned(float(values[i])))) if colored else None for i in rows]
+    color = scale.to_rgba(np.array([turned(values[i]) for i in rows])) if colored else [None] * len(rows)
     return [(branch.orbits[i], str(branch.stability[i]), c) for i, c in zip(rows, color, strict=True)]
 
 

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
+Line = tuple[Array, Array, Collection[int]]
 COLORS = ("#1b4f8a", "#c4541a", "#2a7d5f", "#7b3fa0", "#8a6d1b", "#b02a4a", "#4d4d4d")
 GREY = "#6e6e6e"
 LINE_STYLES: Mapping[str, Any] = {"stable": "-", "unstable": (0, (4.5, 2.0)), "marginal": (0, (1.0, 1.4))}
@@ -88,8 +89,8 @@ def plot(
 ) -> Axes:
     """Draw branches and loci: solid where stable, dashed where unstable, dotted where marginal; loci solid.
 
-    Of orbits an observable is drawn by its largest and smallest value, so that they lie over equilibria; any other
-    column, such as NAME.amplitude, as it is. A load path is a broad line with arrows over them, its jumps are dotted arrows.
+    Of orbits an observable is drawn by its largest and smallest value, so that they lie over equilibria. A load path is
+    a broad line with arrows over them, its jumps are dotted arrows.
 
     Parameters
     ----------
@@ -127,9 +128,7 @@ def plot(
         color = palette[i % len(palette)]
         # An empty line carries the branch's name: its first piece may be dashed, and it counts the colours used.
         ax.plot([], [], color=color, label=name or "_branch")
-        for k, (xs, ys, breaks) in enumerate(lines):
-            draw_curve(ax, xs, ys, pieces(branch), color=color, breaks=breaks)
-            draw_points(ax, xs, ys, branch.special_points, labels=labels if k == 0 else False, color=color)
+        _draw_branch(ax, branch, lines, labels, color)
     for i, path in enumerate(paths):
         color = (colors or COLORS[1:])[(len(branches) * bool(colors) + i) % len(colors or COLORS[1:])]
         draw_path(ax, path, x, y, degrees=degrees, color=color, labels=labels is not False and not branches)
@@ -137,6 +136,15 @@ def plot(
     _explain(ax, branches, legend)
     place_labels(ax)
     return ax
+
+
+def _draw_branch(
+    ax: Axes, branch: Branch, lines: Sequence[Line], labels: bool | Mapping[str, str], color: str
+) -> None:
+    """Draw the lines that show a branch, its special points named on the first of them."""
+    for k, (xs, ys, breaks) in enumerate(lines):
+        draw_curve(ax, xs, ys, pieces(branch), color=color, breaks=breaks)
+        draw_points(ax, xs, ys, branch.special_points, labels=labels if k == 0 else False, color=color)
 
 
 def _explain(ax: Axes, branches: Iterable[Branch], legend: Sequence[str] | bool | None) -> None:
@@ -335,7 +343,7 @@ def _check(branches: Sequence[Any], legend: Sequence[str] | bool | None, paths: 
         raise MjcontError(f"legend must be a list with a name for each branch ({count} in all), got {legend!r}")
 
 
-def _lines(branch: Branch, x: str, y: str, degrees: bool, wrap: bool) -> list[tuple[Array, Array, Collection[int]]]:
+def _lines(branch: Branch, x: str, y: str, degrees: bool, wrap: bool) -> list[Line]:
     """Return the lines that show a branch: xs, ys, and the rows after which they are cut."""
     xs = _column(branch, x, degrees)
     return [(xs, _column(branch, n, degrees), _breaks(branch, (x, n)) if wrap else ()) for n in branch.drawn(y)]

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from functools import cache
 
-from problems.motions import bautin
-
 import mjcont as mc
+from problems.motions import bautin
 
 # fewer intervals and larger steps: these orbits are harmonic
 QUICK = {"mesh": 10, "ds": 0.3, "ds_max": 0.5}
