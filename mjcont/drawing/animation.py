@@ -72,12 +72,10 @@ def animate(
         Columns of the diagram. Default time against the first observable for a history, else the parameter against
         the first observable, for a locus its two parameters.
     on : what to draw the diagram of; default for a history x becomes the branch's parameter.
-    fps : frames a second.
-    seconds : float, optional
-        Length of the animation; default real time for histories of 2 to 20 s, otherwise the nearer of these, and 8 s
+    fps, seconds : frames a second, and the animation's length
+        Default real time for histories of 2 to 20 s, otherwise the nearer of these, and 8 s
         for branches and load paths.
-    size, degrees : width and height in pixels; whether angles are shown in degrees.
-    plane : as for `draw`.
+    size, degrees, plane : width and height in pixels; whether angles are shown in degrees; as for `draw`.
     rendering : {"drawing", "mujoco"}
         How the mechanism is shown: drawn in its plane by matplotlib, or rendered by MuJoCo, which needs OpenGL.
     camera : with MuJoCo, the name of one of the model's cameras; default its free camera.
