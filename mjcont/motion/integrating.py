@@ -14,9 +14,12 @@ import numpy as np
 from scipy.integrate import DOP853, LSODA
 
 from mjcont.numerics.equations.problem import Array
+from mjcont.results.quantities import LARGEST
 
 # over which time speeds must stay small for a motion to be at rest, s
 _CALM = 1.0
+# a step that is a shorter part of the time stands still: the motion has no further one
+_SHORTEST = 1e-14
 
 
 @dataclass(slots=True)
@@ -62,7 +65,8 @@ def follow(
                 break
             solver.step()
             steps += 1
-            if solver.status == "failed" or not np.isfinite(solver.y).all():
+            stuck = solver.t - solver.t_old <= _SHORTEST * max(abs(float(times[-1])), abs(solver.t))
+            if solver.status == "failed" or not (np.abs(solver.y) < LARGEST).all() or stuck:
                 ended = "diverged"
                 break
             last = int(np.searchsorted(times, solver.t, side="right"))
