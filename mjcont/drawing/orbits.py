@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 TIME = "time"
 # places at which each interval of a mesh is drawn
 _FINE = 16
+_TEXT = 9.0
 
 
 def plot_orbits(
@@ -72,7 +73,9 @@ def plot_orbits(
     for branch, scale in scales:
         name = next(iter(branch.free))
         figure: Any = ax.figure
-        figure.colorbar(scale, ax=ax, label=axis_label(name, branch.unit(name), degrees))
+        bar = figure.colorbar(scale, ax=ax)
+        bar.set_label(axis_label(name, branch.unit(name), degrees), fontsize=_TEXT)
+        bar.ax.tick_params(labelsize=_TEXT)
     first = given[0][0]
     ax.set(xlabel=_label(first, x, degrees), ylabel=_label(first, y, degrees) if y is not None else
            axis_label(f"rate of {x}", _per_second(first.unit(x), degrees), degrees))
