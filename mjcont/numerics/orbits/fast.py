@@ -27,9 +27,12 @@ from scipy.linalg import eig
 from mjcont.numerics.equations.algebra import eigenvalues as eigenvalues_of
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.collocation import Blocks, Orbits
+from mjcont.numerics.orbits.scheme import GAUSS, RADAU
 
-# |lambda| h from which on a mode is fast; factor between the sizes of fast and slow ones
-_FAST, _GAP = 1.0, 1.3
+# |lambda| h from which on a scheme of degree 5 errs by 1e-6 in a period, and the part of it that is to be exceeded all
+# along the orbit; factor between the sizes of fast and slow modes
+_FAST = {RADAU: 1.0, GAUSS: 3.0}
+_EVERYWHERE, _GAP = 0.3, 1.3
 # |lambda| h of a step of its own, and how many of these are taken in all
 _STEP, _MOST = 1.0, 3000
 _ROOT = np.sqrt(15.0)
@@ -71,8 +74,8 @@ class FastModes:
 def fast_modes(orbits: Orbits, blocks: Blocks, period: float) -> FastModes | None:
     """Return the modes that are too fast for an orbit's mesh, None where there are none."""
     lengths = period * orbits.lengths
-    longest, shortest = float(lengths.max()), float(lengths.min())
-    if _bound(blocks.jac, orbits.flow.c) * longest < _FAST:
+    bound = _FAST[orbits.scheme.name]
+    if _bound(blocks.jac, orbits.flow.c) * float(lengths.max()) < bound:
         return None
     matrices = first_order_each(blocks.jac)
     rates = eigenvalues_of(matrices)
@@ -81,11 +84,11 @@ def fast_modes(orbits: Orbits, blocks: Blocks, period: float) -> FastModes | Non
     rates = np.take_along_axis(rates, np.argsort(-np.abs(rates), axis=1, kind="stable"), axis=1)
     sizes = np.abs(rates).reshape(orbits.intervals, orbits.m, -1)
     turns = float((lengths * sizes[:, :, 0].max(axis=1)).sum())
-    d, unresolved = orbits.flow.d, int((sizes * lengths[:, None, None] > _FAST).any(axis=(0, 1)).sum())
+    d, unresolved = orbits.flow.d, int((sizes * lengths[:, None, None] > bound).any(axis=(0, 1)).sum())
     if not unresolved:
         return None
     few = turns / _STEP <= _MOST
-    count = _count(sizes.reshape(-1, d), unresolved, few, shortest)
+    count = _count(sizes.reshape(-1, d), unresolved, few, bound / float(lengths.min()))
     if not count:
         return None
     steps = _magnus(orbits, matrices, lengths, sizes[:, :, 0].max(axis=1)) if few else None
@@ -93,13 +96,16 @@ def fast_modes(orbits: Orbits, blocks: Blocks, period: float) -> FastModes | Non
                      _adiabatic(orbits, rates[:, :count], period))
 
 
-def _count(sizes: Array, unresolved: int, few: bool, step: float) -> int:
-    """Return how many modes are told apart as fast, given their sizes along the orbit (k, d), the largest first."""
+def _count(sizes: Array, unresolved: int, few: bool, bound: float) -> int:
+    """Return how many modes are told apart as fast, given their sizes along the orbit (k, d), the largest first.
+
+    None are where a mode is fast here and slow there: the orbit itself is as fast then, and its mesh made for it.
+    """
     d, least, most = sizes.shape[1], sizes.min(axis=0), sizes.max(axis=0)
     apart = [k for k in range(1, d + 1) if k == d or least[k - 1] > _GAP * most[k]]
     if few:
-        return next(k for k in apart if k >= unresolved)
-    return max((k for k in apart if least[k - 1] * step > _FAST), default=0)
+        return next(k for k in apart if k >= unresolved) if least[unresolved - 1] > _EVERYWHERE * bound else 0
+    return max((k for k in apart if least[k - 1] > bound), default=0)
 
 
 def _bound(jac: Array, c: int) -> float:
