@@ -126,7 +126,9 @@ def collect(
         raise StartError("; ".join(t.end.message for t in traces))
     flow = flow_at(rows[0][0])
     orbits = [make_orbit(p) for p, _ in rows]
-    words, counts = zip(*(verdict(o, e.kind if e else "") for o, (_, e) in zip(orbits, rows, strict=True)), strict=True)
+    always = kind.removesuffix(" locus") if kind.endswith(" locus") else ""
+    kinds = [e.kind if e else always for _, e in rows]
+    words, counts = zip(*(verdict(o, k) for o, k in zip(orbits, kinds, strict=True)), strict=True)
     free = {p.name: (p.low, p.high) for p in system.free}
     base = dict(orbits[0].parameters)
     return CycleBranch(

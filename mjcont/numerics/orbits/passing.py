@@ -228,7 +228,8 @@ def _several(
 ) -> Located | None:
     """Return the point at which several multipliers pass together: the mean of their log |mu| vanishes there.
 
-    The ends of the whole step tell better of what kind it is than those of the piece in which it lies. The curve's equations may be singular at the point itself: it is interpolated from orbits around it.
+    The ends of the whole step tell better of what kind it is than those of the piece in which it lies. The curve's
+    equations may be singular at the point itself: it is interpolated from orbits around it.
     """
     first, last = sorted((len(_outside(old)), len(_outside(new))))
 
