@@ -42,6 +42,8 @@ _BETTER = 0.5
 _SMALL, _OPPOSITE = 1e-5, -0.5
 # the phase condition is renewed where the orbit's velocity has turned from the reference's by more than this cosine
 _STALE = 0.8
+# orbits before a step from which derivatives are extrapolated
+_ENOUGH = 3
 # where the multiplier 1 has this error and the period has grown so much, it grows without bound
 _BLURRED, _LONGER = 1e-5, 2.0
 
@@ -126,12 +128,19 @@ def entered(system: System, x: Array, y: Array, row: Array, settings: Settings, 
 
 
 class OrbitByOrbit(OneByOne):
-    """Steps in which derivatives are taken once, at the orbit itself: they cost as much as dozens of corrections."""
+    """Steps in which derivatives are taken once, at the orbit itself: they cost as much as dozens of corrections.
+
+    Those at the prediction are extrapolated from the orbits before, as soon as there are enough of them.
+    """
+
+    def begin(self, start: CurvePoint) -> float:
+        """Return the length of the first step from a start, whose derivatives tell little of the next orbit's."""
+        self._fresh = True
+        return OneByOne.begin(self, start)
 
     def learn(self, leap: Leap) -> None:
-        """Go back to the last orbit's derivatives, whatever the last step asked for."""
-        del leap
-        self._fresh = False
+        """Go on with derivatives at the prediction until there are orbits enough to extrapolate from."""
+        self._fresh = len(leap.new.past) < _ENOUGH
 
 
 @dataclass(slots=True)
