@@ -170,9 +170,11 @@ def _columns(flow: ModelFlow, orbits: Sequence[Orbit], system: System) -> dict[s
         p.name: Column(p.name, units.get(p.name, ""), "parameter", _frozen([o.parameters[p.name] for o in orbits]))
         for p in system.free
     }
-    found["period"] = Column("period", "s", "orbit", _frozen([o.period for o in orbits]))
-    if "frequency" not in found:
-        found["frequency"] = Column("frequency", "Hz", "orbit", _frozen([o.frequency for o in orbits]))
+    own = set(flow.model.parameters) | set(found)  # a model's parameter keeps its name
+    for name, unit, column in (("period", "s", [o.period for o in orbits]),
+                               ("frequency", "Hz", [o.frequency for o in orbits])):
+        if name not in own:
+            found[name] = Column(name, unit, "orbit", _frozen(column))
     read = [readings(o, flow.forced) for o in orbits]
     for k, (name, o) in enumerate(flow.model.observables.items()):
         for what in read[0]:

@@ -154,6 +154,7 @@ class Follower:
     detectors : what makes the detectors of a curve on a mesh.
     held : from plain equations and a point to those of a curve of special orbits on another mesh.
     end_at : kinds of points that end the curve.
+    corner : returns what an orbit touches, as its names; empty where its motion is smooth.
     """
 
     settings: Settings
@@ -162,6 +163,7 @@ class Follower:
     detectors: Callable[[System, Settings], list[Detector]] = cycle_detectors
     held: Callable[[System, Array, Array], System] | None = None
     end_at: frozenset[str] = frozenset()
+    corner: Callable[[CurvePoint], str] | None = None
     _wants: str = field(default="", init=False)
     _ending: End | None = field(default=None, init=False)
     _before: CurvePoint | None = field(default=None, init=False)
@@ -220,8 +222,11 @@ class Follower:
             return None
         before, self._before = self._before, p
         sentence = self.stop(system, p) if self.stop is not None else None
+        touched = self.corner(p) if self.corner is not None else ""
         if sentence:
             self._ending = End(Status.STOPPED, sentence)
+        elif touched:
+            self._ending = End(Status.CORNER, f"the orbit begins to touch {touched}: its motion is smooth no more")
         elif before is not None and _shrunk(before, p):
             at_end = shrunk_to(orbits_at(p), path_at(p), p.local.values, self.held is not None)
             self._ending = End(Status.AT_REST, at_end)

@@ -7,7 +7,8 @@ point, so that v need not be periodic:
     doubling   w . (D3[v, v, v] / 6 + D2[v, h]),                                 J h = -D2[v, v] / 2
     torus      w . (D3[v, v, v*] / 2 + D2[v, h] + D2[v*, g]),    J h = -D2[v, v*],  K(mu^2) g = -D2[v, v] / 2
 
-over the rate w . mu dK/dmu v at which the multiplier moves; of a torus the real part.
+over the rate w . mu dK/dmu v at which the multiplier moves; of a torus the real part. The doubled orbits, or the torus,
+lie where the multiplier is outside, supercritically, if that is positive.
 
 Source: Kuznetsov, Govaerts, Doedel and Dhooge, Numerical periodic normalization for codim 1 bifurcations of limit
 cycles (SIAM J. Numer. Anal. 43, 2005), here for the discretised equations.
@@ -79,10 +80,10 @@ def cubic_of_doubling(point: CurvePoint) -> float:
     return float(w @ along) * _side(orbits, v, w, -1.0).real
 
 
-def cubic_of_torus(point: CurvePoint) -> float:
-    """Return the real part of the cubic coefficient of an NS, up to a positive factor."""
+def cubic_of_torus(point: CurvePoint, theta: float) -> float:
+    """Return the real part of the cubic coefficient of an NS with the angle theta, up to a positive factor."""
     local = _accurate(point)
-    orbits, theta = orbits_of(local), float(point.y[-1])
+    orbits = orbits_of(local)
     short, left, _ = Torus(local, theta).vectors(local, np.array([theta]))
     v, w = _whole(orbits, short), _whole(orbits, left)
     real, imag = _Bends(local, v.real), _Bends(local, v.imag)
@@ -91,6 +92,11 @@ def cubic_of_torus(point: CurvePoint) -> float:
     g = Factored(_turned(local, orbits, np.exp(2j * theta))).solve(-0.5 * (first @ v)[: len(short)])
     along = 0.5 * ((real.second + imag.second) @ v) + first @ h + np.conj(first) @ _whole(orbits, g)
     return float((w @ along * _side(orbits, v, w, np.exp(1j * theta))).real)
+
+
+def side_of(value: float) -> str:
+    """Return what the sign of a cubic coefficient is called."""
+    return "supercritical" if value > 0.0 else "subcritical" if value < 0.0 else "degenerate"
 
 
 def _side(orbits: Orbits, v: Array, w: Array, mu: complex) -> complex:

@@ -129,7 +129,8 @@ def locus_detectors(kind: str) -> Callable[[System, Settings], list[Detector]]:
     """Return what makes the detectors of a curve of special orbits of a kind."""
     names = {"LPC": ("R1", "LPPD", "LPNS"), "PD": ("LPPD", "R2", "PDNS"), "NS": ("LPNS", "PDNS", "NSNS")}
     own: dict[str, tuple[str, Test]] = {
-        "LPC": ("CPC", square_of_fold), "PD": ("GPD", cubic_of_doubling), "NS": ("CH", cubic_of_torus)
+        "LPC": ("CPC", square_of_fold), "PD": ("GPD", cubic_of_doubling),
+        "NS": ("CH", lambda point: cubic_of_torus(point, float(point.y[-1]))),
     }
 
     def make(system: System, settings: Settings) -> list[Detector]:

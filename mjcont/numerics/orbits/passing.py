@@ -24,6 +24,7 @@ from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.defining import PeriodDoubling, Torus
 from mjcont.numerics.orbits.detectors import BranchOfCycles, FoldOfCycles, located
+from mjcont.numerics.orbits.forms import cubic_of_doubling, cubic_of_torus, side_of
 from mjcont.numerics.orbits.points import multipliers_at
 from mjcont.numerics.points.events import (
     Detector,
@@ -128,7 +129,10 @@ class Crossing:
         if near is None or near[1].imag != 0.0 or near[1].real > 0.0:
             return None
         found = located(self.system, old, new, near[0], "PD", PeriodDoubling(near[0].local))
-        return None if found is None else found[0]
+        if found is None:
+            return None
+        found[0].data["type"] = side_of(cubic_of_doubling(found[0].point))
+        return found[0]
 
     def _pair_passes(self, old: CurvePoint, new: CurvePoint, step: Piece) -> Located | Refused | None:
         near = self._near(old, new)
@@ -219,6 +223,7 @@ def _with_angle(found: Located, theta: float) -> Located | None:
     if theta < _ON_AXIS or math.pi - theta < _ON_AXIS:
         return None
     found.data.update(theta=theta, rotation=theta / (2.0 * math.pi))
+    found.data["type"] = side_of(cubic_of_torus(found.point, theta))
     found.note = _resonance(theta)
     return found
 

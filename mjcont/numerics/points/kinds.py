@@ -102,8 +102,8 @@ KINDS = {
             coefficients=("omega", "omega2", "theta", "delta"),
         ),
         Kind("LPC", "fold of cycles", ("h", 6.5), _CYCLES),
-        Kind("PD", "period doubling", ("d", 5.5), _CYCLES),
-        Kind("NS", "Neimark-Sacker point", ("p", 7.0), _CYCLES, coefficients=("theta", "rotation")),
+        Kind("PD", "period doubling", ("d", 5.5), _CYCLES, coefficients=("type",)),
+        Kind("NS", "Neimark-Sacker point", ("p", 7.0), _CYCLES, coefficients=("type", "theta", "rotation")),
         Kind("BPC", "branch point of cycles", ("8", 6.0), _CYCLES),
         *(
             Kind(code, name, (marker, 6.5), _ON_CYCLES)
