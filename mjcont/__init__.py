@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from mjcont.curves.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
     from mjcont.curves.diagram import bifurcation_diagram, switch_branches
     from mjcont.curves.extension import extend
-    from mjcont.curves.loci import continue_special
     from mjcont.curves.search import find_equilibria
     from mjcont.curves.stiffness import stiffness_study
     from mjcont.drawing.animation import animate
@@ -54,6 +53,7 @@ if TYPE_CHECKING:
     from mjcont.numerics.equations.settings import Settings
     from mjcont.oscillation.cycles import continue_cycles, find_cycle
     from mjcont.oscillation.forced import Harmonic
+    from mjcont.oscillation.loci import continue_special
     from mjcont.oscillation.responses import continue_response
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
     from mjcont.results.branch import Branch, Diagram
@@ -77,7 +77,7 @@ _HOMES = {
     "mjcont.curves.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.curves.diagram": ("bifurcation_diagram", "switch_branches"),
     "mjcont.curves.extension": ("extend",),
-    "mjcont.curves.loci": ("continue_special",),
+    "mjcont.oscillation.loci": ("continue_special",),
     "mjcont.curves.search": ("find_equilibria",),
     "mjcont.curves.stiffness": ("stiffness_study",),
     "mjcont.drawing.animation": ("animate",),

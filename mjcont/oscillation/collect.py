@@ -126,7 +126,9 @@ def collect(
         raise StartError("; ".join(t.end.message for t in traces))
     flow = flow_at(rows[0][0])
     orbits = [make_orbit(p) for p, _ in rows]
-    words, counts = zip(*(verdict(o, e.kind if e else "") for o, (_, e) in zip(orbits, rows, strict=True)), strict=True)
+    always = kind.removesuffix(" locus") if kind.endswith(" locus") else ""
+    kinds = [e.kind if e else always for _, e in rows]
+    words, counts = zip(*(verdict(o, k) for o, k in zip(orbits, kinds, strict=True)), strict=True)
     free = {p.name: (p.low, p.high) for p in system.free}
     base = dict(orbits[0].parameters)
     return CycleBranch(
@@ -168,9 +170,11 @@ def _columns(flow: ModelFlow, orbits: Sequence[Orbit], system: System) -> dict[s
         p.name: Column(p.name, units.get(p.name, ""), "parameter", _frozen([o.parameters[p.name] for o in orbits]))
         for p in system.free
     }
-    found["period"] = Column("period", "s", "orbit", _frozen([o.period for o in orbits]))
-    if "frequency" not in found:
-        found["frequency"] = Column("frequency", "Hz", "orbit", _frozen([o.frequency for o in orbits]))
+    own = set(flow.model.parameters) | set(found)  # a model's parameter keeps its name
+    for name, unit, numbers in (("period", "s", [o.period for o in orbits]),
+                               ("frequency", "Hz", [o.frequency for o in orbits])):
+        if name not in own:
+            found[name] = Column(name, unit, "orbit", _frozen(numbers))
     read = [readings(o.path, o.reading, flow.forced) for o in orbits]
     for k, (name, o) in enumerate(flow.model.observables.items()):
         for what in read[0]:

@@ -14,6 +14,7 @@ from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.follow import laid, orbit_near
+from mjcont.numerics.orbits.path import Path
 from mjcont.oscillation.collect import make_orbit
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.motions import cycle_of
@@ -156,7 +157,7 @@ def _from_motion(
     if not low <= values[parameter] <= high:
         raise BoundsError(f"the start has {parameter} = {free.show(values[parameter])}, outside the bounds "
                           f"{free.show(low)} .. {free.show(high)}")
-    path, shift = cycle_of(flow, _whole(flow, state), values, read.meshes, duration)
+    path, shift = _cycle(flow, state, values, read, duration)
     orbits = laid(flow, path, shift)
     system = System(orbits, values, [free])
     entries = [Entry(sign, orbits.joined(path), system.start_y(), None) for sign in directions]
@@ -182,11 +183,22 @@ def find_cycle(
     flow = _unforced(problem)
     read = read_options(flow, options)
     state, values, duration = _motion(problem, start, keyframe, state)
-    path, shift = cycle_of(flow, _whole(flow, state), values, read.meshes, duration)
+    path, shift = _cycle(flow, state, values, read, duration)
     point = orbit_near(flow, path, values, shift, read.meshes)
     if point is None:
         raise StartError("the cycle was lost as it was corrected")
     return make_orbit(point)
+
+
+def _cycle(
+    flow: ModelFlow, state: Array, values: dict[str, float], read: Options, duration: float | None
+) -> tuple[Path, Array]:
+    """Return the cycle on which a motion settles, and what it gains in a period."""
+    whole = _whole(flow, state)
+    if flow.undamped(whole, values):
+        raise MjcontError(f"{flow.model.name} has no damping: its orbits form a family, one for each energy, and no "
+                          "motion settles on one; add damping, or force it (continue_response)")
+    return cycle_of(flow, whole, values, read.meshes, duration)
 
 
 def _unforced(problem: Model) -> ModelFlow:

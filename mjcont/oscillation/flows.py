@@ -18,6 +18,8 @@ from mjcont.results.quantities import Parameter
 
 # speed, relative to what a state's own size would bring about, that counts as none
 _AT_REST = 1e-6
+# states at which damping is looked for, and the part of stiffness that counts as none
+_BESIDE, _NONE = 3, 1e-9
 
 
 class ModelFlow(Flow):
@@ -51,6 +53,22 @@ class ModelFlow(Flow):
         size = np.abs(rates.jac[0]) @ self.scale
         size = size if self.order == 1 else np.concatenate([self.scale[self.c :], size])
         return bool(np.all(np.abs(speed) <= _AT_REST * np.maximum(size, 1e-300)))
+
+    def undamped(self, state: Array, values: Values) -> bool:
+        """Whether no rate depends on velocities at rest, near a state (d,): a mechanism that loses no energy."""
+        if self.order == 1:
+            return False
+        states = np.tile(state, (_BESIDE, 1))
+        states[:, : self.c] += self.scale[: self.c] * 0.1 * np.cos(np.arange(_BESIDE)[:, None] + np.arange(self.c))
+        states[:, self.c :] = 0.0
+        jac = self.derivatives(states, np.zeros(_BESIDE), values, (), False).jac
+        sizes = self.scale[self.c :]
+        return bool(np.abs(jac[..., self.c :] * sizes).max() <= _NONE * np.abs(jac[..., : self.c] * sizes).max())
+
+    def touched(self, path: Path, values: Values) -> str:
+        """Return what an orbit touches that its motion is not smooth at, as names; empty where there is nothing."""
+        del path, values
+        return ""
 
     def state(self, state: Array) -> Array:
         """Return the model's state (nq,) of a state (d,)."""

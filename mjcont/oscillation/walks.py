@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,9 @@ from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.follow import Follower, MeshSettings, entered, trace_orbits
+from mjcont.numerics.orbits.points import path_at
 from mjcont.numerics.orbits.scheme import GAUSS, RADAU, SCHEMES, scheme
+from mjcont.numerics.points.events import Detector
 from mjcont.numerics.step.arclength import CurvePoint, tangent_at
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace
@@ -117,6 +119,11 @@ def point_stop(stop: Stop | None) -> Callable[[System, CurvePoint], str | None] 
     return ask
 
 
+def touching(point: CurvePoint) -> str:
+    """Return what a point's orbit touches, as names."""
+    return flow_at(point).touched(path_at(point), point.local.values)
+
+
 @dataclass(frozen=True, slots=True)
 class Entry:
     """Where a curve is entered.
@@ -134,6 +141,15 @@ class Entry:
     row: Array | None
 
 
+@dataclass(frozen=True, slots=True)
+class Special:
+    """What a curve of special orbits has beside a curve of orbits; the attributes are those of `Follower`."""
+
+    detectors: Callable[[System, Settings], list[Detector]]
+    held: Callable[[System, Array, Array], System]
+    end_at: frozenset[str]
+
+
 def run(
     kind: str,
     system: System,
@@ -143,8 +159,9 @@ def run(
     stop: Stop | None = None,
     progress: Progress | None = None,
     notes: Sequence[str] = (),
+    special: Special | None = None,
 ) -> CycleBranch:
-    """Walk from each entry and collect the curve."""
+    """Walk from each entry and collect the curve; `special` where it is one of special orbits."""
     traces: list[Trace] = []
     report = reporter(progress)
     for entry in entries:
@@ -157,7 +174,13 @@ def run(
             if isinstance(first, Refused):
                 traces.append(Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
-            follower = Follower(options.settings, options.meshes, point_stop(stop))
+            touched = touching(first)
+            if touched:
+                raise StartError(f"the orbit touches {touched}: periodic motion is followed where it is smooth; begin "
+                                 "with a smaller one, or take the stop away")
+            follower = Follower(options.settings, options.meshes, point_stop(stop), corner=touching)
+            if special is not None:
+                follower = replace(follower, detectors=special.detectors, held=special.held, end_at=special.end_at)
             traces.append(trace_orbits(follower, system, first, report))
     if not any(t.points for t in traces):
         raise StartError("; ".join(t.end.message for t in traces))

@@ -139,7 +139,7 @@ def _diagram(plan: Task, at: Running) -> Outcome:
 
 
 def _locus(plan: Task, at: Running) -> Outcome:
-    from mjcont.curves.loci import continue_special
+    from mjcont.oscillation.loci import continue_special
 
     g = plan.given
     found = continue_special(

@@ -11,6 +11,7 @@ from mjcont.motion.loadpaths import LANDINGS
 from mjcont.motion.stepping import INTEGRATORS
 from mjcont.numerics.points import kinds
 from mjcont.numerics.points.kinds import CONTINUABLE
+from mjcont.oscillation.loci import FOLLOWED
 from mjcont.results.model import check_bounds, units
 from mjcont.results.points import show
 from mjcont.results.quantities import column_of
@@ -256,7 +257,7 @@ DIAGRAM = Kind("diagrams", "Every branch that the starts reach through branch po
 
 LOCUS = Kind("loci", "A special point followed in one more parameter (`continue_special`).", {
     "name": _NAME,
-    "point": Key(r.reference(*SPECIAL, *ORBITS, labels=CONTINUABLE), _POINT.text, needed=True),
+    "point": Key(r.reference(*SPECIAL, *ORBITS, labels=(*CONTINUABLE, *FOLLOWED)), _POINT.text, needed=True),
     "parameter": Key(k.parameter, "The parameter that is freed.", needed=True),
     "bounds": _BOUNDS, "direction": _DIRECTION, "zeros": _ZEROS,
     "csv": _csv("a row a point", False), "settings": _SETTINGS,

@@ -109,3 +109,31 @@ def ring(omega, slope=0.0):
         return [grows * y[0] - w * y[1], w * y[0] + grows * y[1], *(-a for a in y[2:])]
 
     return g
+
+
+def cusp(y, p):
+    """y' = p + q y - y^3: folds at 27 p^2 = 4 q^3, a cusp at p = q = 0."""
+    return [p["p"] + p["q"] * y[0] - y[0] ** 3, -y[1]]
+
+
+def fork_along_a_parabola(y, p):
+    """y' = y (p - q^2 - y^2): the point at p = q^2."""
+    return [y[0] * (p["p"] - p["q"] ** 2 - y[0] ** 2), -y[1]]
+
+
+def fork_that_changes_side(y, p):
+    """y' = y (p + q y^2 - y^4): at p = 0, super- or subcritical with the sign of q."""
+    return [y[0] * (p["p"] + p["q"] * y[0] ** 2 - y[0] ** 4), -y[1]]
+
+
+def ring_that_turns_faster(y, p):
+    """y' = (p - q^2 - |y|^2 + i (0.2 + q)) y: a torus at p = q^2, of angle 2 pi (0.2 + q)."""
+    grows, w = p["p"] - p["q"] ** 2 - y[0] ** 2 - y[1] ** 2, 0.2 + p["q"]
+    return [grows * y[0] - w * y[1], w * y[0] + grows * y[1]]
+
+
+def ring_that_changes_side(y, p):
+    """y' = (p + q |y|^2 - |y|^4 + 0.3 i) y: a torus at p = 0, super- or subcritical with the sign of q."""
+    r2 = y[0] ** 2 + y[1] ** 2
+    grows = p["p"] + p["q"] * r2 - r2**2
+    return [grows * y[0] - 0.3 * y[1], 0.3 * y[0] + grows * y[1]]

@@ -20,13 +20,13 @@ from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.flow import Flow
-from mjcont.numerics.orbits.linger import lingering
+from mjcont.numerics.orbits.linger import lingering, shrunk_to
 from mjcont.numerics.orbits.mesh import count_for, equidistributed, error_of
 from mjcont.numerics.orbits.passing import cycle_detectors
 from mjcont.numerics.orbits.path import Path
 from mjcont.numerics.orbits.points import error_at, multipliers_at, orbits_at, path_at
 from mjcont.numerics.orbits.scheme import Scheme
-from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.events import Detector, Located
 from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.onebyone import OneByOne
@@ -42,6 +42,8 @@ _BETTER = 0.5
 _SMALL, _OPPOSITE = 1e-5, -0.5
 # the phase condition is renewed where the orbit's velocity has turned from the reference's by more than this cosine
 _STALE = 0.8
+# orbits before a step from which derivatives are extrapolated
+_ENOUGH = 3
 # where the multiplier 1 has this error and the period has grown so much, it grows without bound
 _BLURRED, _LONGER = 1e-5, 2.0
 
@@ -126,12 +128,19 @@ def entered(system: System, x: Array, y: Array, row: Array, settings: Settings, 
 
 
 class OrbitByOrbit(OneByOne):
-    """Steps in which derivatives are taken once, at the orbit itself: they cost as much as dozens of corrections."""
+    """Steps in which derivatives are taken once, at the orbit itself: they cost as much as dozens of corrections.
+
+    Those at the prediction are extrapolated from the orbits before, as soon as there are enough of them.
+    """
+
+    def begin(self, start: CurvePoint) -> float:
+        """Return the length of the first step from a start, whose derivatives tell little of the next orbit's."""
+        self._fresh = True
+        return OneByOne.begin(self, start)
 
     def learn(self, leap: Leap) -> None:
-        """Go back to the last orbit's derivatives, whatever the last step asked for."""
-        del leap
-        self._fresh = False
+        """Go on with derivatives at the prediction until there are orbits enough to extrapolate from."""
+        self._fresh = len(leap.new.past) < _ENOUGH
 
 
 @dataclass(slots=True)
@@ -142,11 +151,19 @@ class Follower:
     ----------
     settings, meshes : of the walk, and of the meshes.
     stop : ends the curve with a sentence where a user says so.
+    detectors : what makes the detectors of a curve on a mesh.
+    held : from plain equations and a point to those of a curve of special orbits on another mesh.
+    end_at : kinds of points that end the curve.
+    corner : returns what an orbit touches, as its names; empty where its motion is smooth.
     """
 
     settings: Settings
     meshes: MeshSettings
     stop: Callable[[System, CurvePoint], str | None] | None = None
+    detectors: Callable[[System, Settings], list[Detector]] = cycle_detectors
+    held: Callable[[System, Array, Array], System] | None = None
+    end_at: frozenset[str] = frozenset()
+    corner: Callable[[CurvePoint], str] | None = None
     _wants: str = field(default="", init=False)
     _ending: End | None = field(default=None, init=False)
     _before: CurvePoint | None = field(default=None, init=False)
@@ -171,8 +188,9 @@ class Follower:
             )
             first = point
             walker = Walker(
-                OrbitByOrbit(system, left, cycle_detectors(system, left)),
+                OrbitByOrbit(system, left, self.detectors(system, left)),
                 lambda p, system=system, first=first: self._look(system, p, first, longest),  # type: ignore[misc]
+                self.end_at,
             )
             end: End | None = None
             for item in walker.walk(point):
@@ -204,10 +222,14 @@ class Follower:
             return None
         before, self._before = self._before, p
         sentence = self.stop(system, p) if self.stop is not None else None
+        touched = self.corner(p) if self.corner is not None else ""
         if sentence:
             self._ending = End(Status.STOPPED, sentence)
+        elif touched:
+            self._ending = End(Status.CORNER, f"the orbit begins to touch {touched}: its motion is smooth no more")
         elif before is not None and _shrunk(before, p):
-            self._ending = End(Status.AT_REST, "the orbit shrinks to a point")
+            at_end = shrunk_to(orbits_at(p), path_at(p), p.local.values, self.held is not None)
+            self._ending = End(Status.AT_REST, at_end)
         elif orbits_at(p).own_period and (_period(p) > longest or _blurred(p, longest / self.meshes.period_max)):
             self._ending = End(Status.PERIOD, _without_bound(p))
         elif error_at(p) > self.meshes.tol and not self.meshes.fixed:
@@ -233,6 +255,8 @@ class Follower:
             carried = path.carried(equidistributed(path, orbits.sizes, count))
             other = laid(orbits.flow, carried, orbits.shift)
             moved = System(other, system.base, system.free)
+            if self.held is not None:
+                moved = self.held(moved, other.joined(carried), point.y)
             row = carried_tangent(system, point, other)
             found = entered(moved, other.joined(carried), point.y, row, self.settings, point.s)
             if isinstance(found, Refused):

@@ -10,12 +10,15 @@ import numpy as np
 
 from mjcont.numerics.equations.algebra import solve
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.flow import Flow
 from mjcont.numerics.orbits.path import Path
 
 _STEPS, _SETTLED = 30, 1e-10
 # an equilibrium farther from the orbit's slowest place than this part of its extent is another one
 _NEAR = 0.1
+# eigenvalues nearer to the axis than this part of the orbit's frequency are critical: the orbit is small, not zero
+_CRITICAL = 0.03
 
 
 def lingering(flow: Flow, path: Path, values: Values, sizes: Array) -> str:
@@ -29,6 +32,21 @@ def lingering(flow: Flow, path: Path, values: Values, sizes: Array) -> str:
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
     rates = ", ".join(f"{v.real:.4g}" if v.imag == 0.0 else f"{v.real:.4g}{v.imag:+.4g}i" for v in eigenvalues)
     return f"it lingers at the equilibrium ({_shown(found)}) with eigenvalues {rates} 1/s"
+
+
+def shrunk_to(orbits: Orbits, path: Path, values: Values, on_locus: bool) -> str:
+    """Return the sentence on a curve whose orbits shrink to a point: what that is, told by its eigenvalues."""
+    mean = path.lengths @ (0.5 * (path.s[1:] + path.s[:-1]))
+    found = _equilibrium(orbits.flow, mean, values)
+    if found is None:
+        return "the orbit shrinks to a point"
+    omega = 2.0 * np.pi / path.period
+    eigenvalues = np.linalg.eigvals(first_order(orbits.flow, found, values))
+    critical = eigenvalues[np.abs(eigenvalues.real) < _CRITICAL * omega]
+    zero = bool((np.abs(critical) < _CRITICAL * omega).any())
+    pairs = int(np.count_nonzero(critical.imag > _CRITICAL * omega))
+    other = "zero-Hopf point (ZH)" if zero else "double Hopf point (HH)" if pairs > 1 else ""
+    return f"the orbit shrinks to a {other or ('generalised Hopf point (GH)' if on_locus else 'Hopf point (HB)')}"
 
 
 def first_order(flow: Flow, state: Array, values: Values) -> Array:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.defining import PeriodDoubling, Torus
 from mjcont.numerics.orbits.detectors import BranchOfCycles, FoldOfCycles, located
+from mjcont.numerics.orbits.forms import cubic_of_doubling, cubic_of_torus, side_of
 from mjcont.numerics.orbits.points import multipliers_at
 from mjcont.numerics.points.events import (
     Detector,
@@ -81,7 +83,7 @@ class Crossing:
         results = list[Located]()
         for piece in self._pieces(old, new, _peak(old, new)):
             explained = [s for s in places if piece[0].s - _OWN <= s <= piece[1].s + _OWN]
-            result = self._in(piece, len(explained))
+            result = self._in(piece, len(explained), (old, new))
             if isinstance(result, Refused):
                 return result
             results += [] if result is None else [result]
@@ -102,20 +104,20 @@ class Crossing:
         (a, p), (b, q) = self.value(old), self.value(new)
         return _pair(old, new) or (abs(a - b) == 1 and abs(p - q) <= 1)
 
-    def _in(self, piece: Piece, explained: int) -> Located | Refused | None:
-        """Return the point in a piece, None where what passes there is that of folds and branch points."""
+    def _in(self, piece: Piece, explained: int, step: Piece) -> Located | Refused | None:
+        """Return the point in a piece of a step, None where what passes there is that of folds and branch points."""
         old, new = piece
         (a, p), (b, q) = self.value(old), self.value(new)
         if p == q and abs(a - b) == explained:
             return None
         if abs(a - b) == 1 or new.s - old.s >= _TOGETHER:
-            settle = self._pair_passes if _pair(old, new) else self._one_doubles
+            settle = partial(self._pair_passes, step=step) if _pair(old, new) else self._one_doubles
             result = bisect(self.system, old, new, self._differs, settle, self.settings)
             if result is not None:
                 return result
         if abs(a - b) < 2:
             return _UNSEEN
-        return _several(self.system, old, new, self.settings) or _UNSEEN
+        return _several(self.system, old, new, self.settings, step) or _UNSEEN
 
     def _near(self, old: CurvePoint, new: CurvePoint) -> tuple[Corrected, complex] | None:
         near = approximate(self.system, old, new, _fraction(old, new), self.settings)
@@ -127,15 +129,18 @@ class Crossing:
         if near is None or near[1].imag != 0.0 or near[1].real > 0.0:
             return None
         found = located(self.system, old, new, near[0], "PD", PeriodDoubling(near[0].local))
-        return None if found is None else found[0]
+        if found is None:
+            return None
+        found[0].data["type"] = side_of(cubic_of_doubling(found[0].point))
+        return found[0]
 
-    def _pair_passes(self, old: CurvePoint, new: CurvePoint) -> Located | Refused | None:
+    def _pair_passes(self, old: CurvePoint, new: CurvePoint, step: Piece) -> Located | Refused | None:
         near = self._near(old, new)
         if near is None:
             return None
         theta = abs(float(np.angle(near[1])))
         if math.sin(theta) < _AT_RESONANCE:
-            return _several(self.system, old, new, self.settings)
+            return _several(self.system, old, new, self.settings, step)
         found = located(self.system, old, new, near[0], "NS", Torus(near[0].local, theta))
         return None if found is None else _with_angle(found[0], float(found[1][0]))
 
@@ -218,14 +223,18 @@ def _with_angle(found: Located, theta: float) -> Located | None:
     if theta < _ON_AXIS or math.pi - theta < _ON_AXIS:
         return None
     found.data.update(theta=theta, rotation=theta / (2.0 * math.pi))
+    found.data["type"] = side_of(cubic_of_torus(found.point, theta))
     found.note = _resonance(theta)
     return found
 
 
-def _several(system: System, old: CurvePoint, new: CurvePoint, settings: Settings) -> Located | None:
+def _several(
+    system: System, old: CurvePoint, new: CurvePoint, settings: Settings, step: Piece
+) -> Located | None:
     """Return the point at which several multipliers pass together: the mean of their log |mu| vanishes there.
 
-    The curve's equations may be singular at the point itself: it is interpolated from orbits around it.
+    The ends of the whole step tell better of what kind it is than those of the piece in which it lies. The curve's
+    equations may be singular at the point itself: it is interpolated from orbits around it.
     """
     first, last = sorted((len(_outside(old)), len(_outside(new))))
 
@@ -253,11 +262,12 @@ def _several(system: System, old: CurvePoint, new: CurvePoint, settings: Setting
     x, y = (_interpolated(fractions, np.array(v), root) for v in zip(*((c.x, c.y) for _, _, c in seen), strict=True))
     c = Corrected(x, y, system.local(x, y), None, 0, 0.0, 1e-10, 0.0)
     c = replace(c, error=system.error(c.local, x, y))
-    few, many = sorted((old, new), key=lambda p: len(_outside(p)))
+    passing = max((_changed(*sorted(ends, key=lambda p: len(_outside(p)))) for ends in ((old, new), step)),
+                  key=lambda m: float(np.abs(m.imag).max(initial=0.0)))
     there = multipliers_at(_point(c, system)).tested
     there = there[np.argsort(-np.abs(there), kind="stable")][first:last]
     s = within(system, old, new, c)
-    return None if s is None else _named(point_at(system, old, new, c, s), _changed(few, many), there, c.step)
+    return None if s is None else _named(point_at(system, old, new, c, s), passing, there, c.step)
 
 
 def _mean(point: CurvePoint, first: int, last: int) -> float:

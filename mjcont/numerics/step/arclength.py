@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 from scipy.optimize import brentq
 
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, oriented
