@@ -61,8 +61,8 @@ def extend(
     """
     model_of(branch.problem, "the branch")
     if isinstance(branch, CycleBranch):
-        raise MjcontError("extend is for equilibria and their loci: follow orbits on by continue_cycles(curve[-1], ...), "
-                          "or continue_response")
+        raise MjcontError("extend is for equilibria and their loci: follow orbits on by continue_cycles or "
+                          "continue_response from curve[-1]")
     if branch.status == "closed":
         raise MjcontError("the branch is closed: it has no ends to extend")
     for end in ends:
