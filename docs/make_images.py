@@ -81,7 +81,7 @@ def flutter() -> None:
     cycles = mc.continue_cycles(rest.point("HB1"))
     truss = mc.Mechanism.from_xml("von_mises_truss")
     response = mc.continue_response(
-        truss, "frequency", (2.5, 5.5), {"P": mc.Harmonic(15.0)}, {"joint:z.damping": 2.0}
+        truss, "frequency", (2.5, 5.5), {"P": mc.Harmonic(15.0)}, {"joint:z.damping": 2.0}, ds_max=0.05
     )
     figure, axes = new_figure(1, 3, (11.0, 3.4))
     mc.plot(rest, cycles, x="P", y="q1", ax=axes[0])
