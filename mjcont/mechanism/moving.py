@@ -5,7 +5,7 @@ M(q) q'' = tau(q, v),   derivatives by centred differences in q and v, in batche
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import mujoco
 import numpy as np
@@ -24,12 +24,14 @@ Driven = Mapping[str, Array]
 class Moving:
     """Accelerations of a mechanism; its parameters have the values given, but for those that are driven.
 
-    `driven` maps names of parameters to values of their own in each state, (m,).
+    `driven` maps names of parameters to values of their own in each state, (m,). Where a limit or contact carries load,
+    a cable is slack or an actuator saturates, there is no value, and `failure` is a clause that names it.
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
         self._mechanism, self._core, self.n = mechanism, mechanism._core, mechanism.n
         self._scale = mechanism.state_scale
+        self.failure = ""
 
     def accelerations(self, states: Array, values: Values, driven: Driven) -> Array:
         """Return qacc at states (m, 2 nv) of position and velocity, (m, nv)."""
@@ -54,7 +56,8 @@ class Moving:
         m, k, _ = states.shape
         core, parameters = self._core, self._mechanism.parameters
         flat = states.reshape(m * k, -1)
-        if all(core.writer.alone(parameters, name) for name in driven):
+        together = not core.evaluator.one_by_one
+        if not driven or (together and all(core.writer.alone(parameters, name) for name in driven)):
             core.writer.write(parameters, values)
             controls = None
             if driven:
@@ -83,7 +86,17 @@ class Moving:
             rows = evaluator.accelerations(states[here, : self.n], states[here, self.n :], ctrl)
             evaluator.count -= size - count
             found[first : first + count] = rows[:count]
+            if evaluator.nonsmooth:
+                self._leave_out(found[first : first + count], evaluator.touched(count))
         return found
+
+
+    def _leave_out(self, rows: Array, touched: Sequence[frozenset[str]]) -> None:
+        """Let rows in which something carries load have no value: motion is smooth where nothing does."""
+        for row, names in zip(rows, touched, strict=True):
+            if names:
+                row[:] = np.nan
+                self.failure = f"the orbit touches {', '.join(sorted(names))}"
 
 
 def unfit_for_orbits(mechanism: Mechanism) -> str:

@@ -65,11 +65,6 @@ class ModelFlow(Flow):
         sizes = self.scale[self.c :]
         return bool(np.abs(jac[..., self.c :] * sizes).max() <= _NONE * np.abs(jac[..., : self.c] * sizes).max())
 
-    def touched(self, path: Path, values: Values) -> str:
-        """Return what an orbit touches that its motion is not smooth at, as names; empty where there is nothing."""
-        del path, values
-        return ""
-
     def state(self, state: Array) -> Array:
         """Return the model's state (nq,) of a state (d,)."""
         return state[: self.c].copy()

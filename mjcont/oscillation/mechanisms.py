@@ -11,7 +11,6 @@ from mjcont.mechanism.mechanism import Mechanism
 from mjcont.mechanism.moving import Moving, unfit_for_orbits
 from mjcont.numerics.equations.problem import Array, Ranges, Values
 from mjcont.numerics.orbits.flow import Rates
-from mjcont.numerics.orbits.path import Path
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import Forcing
 from mjcont.results.model import Model
@@ -28,16 +27,15 @@ class MechanismFlow(ModelFlow):
         self.c, self.forced = mechanism.n, forcing is not None
         self.scale = np.concatenate([mechanism.state_scale, mechanism.state_scale])
 
-    def touched(self, path: Path, values: Values) -> str:
-        """Return the limits, contacts and saturated actuators that an orbit touches, as names."""
-        if not self.mechanism.nonsmooth:
-            return ""
-        theirs, driven = self.theirs(values), self.driven(path.points, values)
-        names: set[str] = set()
-        for i, state in enumerate(path.states(path.points)):
-            here = {**theirs, **{n: float(column[i]) for n, column in driven.items()}}
-            names |= self.mechanism.active(state[: self.c], here)
-        return ", ".join(sorted(names))
+    @property
+    def touches(self) -> str:
+        """What a motion touched last, a clause."""
+        return self._moving.failure
+
+    @property
+    def failure(self) -> str:
+        """Why the motion had no value, a clause."""
+        return self.touches or self.mechanism.failure
 
     def turns(self, state: Array, values: Values) -> Array:
         """Return a full turn for each angle in which one changes no force, infinity for the others, (2 nv,)."""

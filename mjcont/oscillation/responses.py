@@ -126,7 +126,8 @@ def _first(flow: ModelFlow, x: Array, values: dict[str, float], read: Options) -
     shift = np.zeros(flow.d)
     point = orbit_near(flow, response_path(flow, x, values, read.meshes), values, shift, read.meshes)
     if point is None:
-        raise StartError("no periodic response found at the start: give state=, or begin at a smaller amplitude")
+        why = f": {flow.touches}" if flow.touches else ""
+        raise StartError(f"no periodic response found at the start{why}; give state=, or begin at a smaller amplitude")
     path = path_at(point)
     orbits = laid(flow, path, shift)
     return orbits, orbits.joined(path)

@@ -15,13 +15,12 @@ from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.follow import Follower, MeshSettings, entered, trace_orbits
-from mjcont.numerics.orbits.points import path_at
 from mjcont.numerics.orbits.scheme import GAUSS, RADAU, SCHEMES, scheme
 from mjcont.numerics.points.events import Detector
 from mjcont.numerics.step.arclength import CurvePoint, tangent_at
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace
-from mjcont.oscillation.collect import collect, flow_at, make_orbit, reporter, verdict
+from mjcont.oscillation.collect import collect, make_orbit, reporter, verdict
 from mjcont.oscillation.fields import FieldFlow
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import Forcing, Harmonic, make_forcing
@@ -119,11 +118,6 @@ def point_stop(stop: Stop | None) -> Callable[[System, CurvePoint], str | None] 
     return ask
 
 
-def touching(point: CurvePoint) -> str:
-    """Return what a point's orbit touches, as names."""
-    return flow_at(point).touched(path_at(point), point.local.values)
-
-
 @dataclass(frozen=True, slots=True)
 class Entry:
     """Where a curve is entered.
@@ -174,11 +168,7 @@ def run(
             if isinstance(first, Refused):
                 traces.append(Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
-            touched = touching(first)
-            if touched:
-                raise StartError(f"the orbit touches {touched}: periodic motion is followed where it is smooth; begin "
-                                 "with a smaller one, or take the stop away")
-            follower = Follower(options.settings, options.meshes, point_stop(stop), corner=touching)
+            follower = Follower(options.settings, options.meshes, point_stop(stop))
             if special is not None:
                 follower = replace(follower, detectors=special.detectors, held=special.held, end_at=special.end_at)
             traces.append(trace_orbits(follower, system, first, report))

@@ -93,3 +93,8 @@ class Flow(ABC):
     def failure(self) -> str:
         """Why there was no value where it was evaluated last, a clause; empty where nothing is known."""
         return ""
+
+    @property
+    def touches(self) -> str:
+        """What a motion touched last that it is not smooth at, a clause; empty where it touched nothing."""
+        return ""

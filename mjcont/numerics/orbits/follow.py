@@ -154,7 +154,6 @@ class Follower:
     detectors : what makes the detectors of a curve on a mesh.
     held : from plain equations and a point to those of a curve of special orbits on another mesh.
     end_at : kinds of points that end the curve.
-    corner : returns what an orbit touches, as its names; empty where its motion is smooth.
     """
 
     settings: Settings
@@ -163,7 +162,6 @@ class Follower:
     detectors: Callable[[System, Settings], list[Detector]] = cycle_detectors
     held: Callable[[System, Array, Array], System] | None = None
     end_at: frozenset[str] = frozenset()
-    corner: Callable[[CurvePoint], str] | None = None
     _wants: str = field(default="", init=False)
     _ending: End | None = field(default=None, init=False)
     _before: CurvePoint | None = field(default=None, init=False)
@@ -203,7 +201,7 @@ class Follower:
                     yield item
             assert end is not None
             if not self._wants:
-                yield self._ended(end)
+                yield self._ended(end, orbits_at(point))
                 return
             again = self._resolved(system, point)
             if isinstance(again, End):
@@ -212,8 +210,10 @@ class Follower:
             system, point = again
             yield point
 
-    def _ended(self, end: End) -> End:
-        """Return the end that was noticed on the way, or how the walk says that it ended."""
+    def _ended(self, end: End, orbits: Orbits) -> End:
+        """Return the end that was noticed on the way, or how the walk says it: at a stop where one is named."""
+        if self._ending is None and end.status is Status.STEP_TOO_SMALL and orbits.flow.touches:
+            return End(Status.CORNER, f"{orbits.flow.touches}: its motion is smooth no farther")
         return self._ending or end
 
     def _look(self, system: System, p: CurvePoint, first: CurvePoint, longest: float) -> str | None:
@@ -222,11 +222,8 @@ class Follower:
             return None
         before, self._before = self._before, p
         sentence = self.stop(system, p) if self.stop is not None else None
-        touched = self.corner(p) if self.corner is not None else ""
         if sentence:
             self._ending = End(Status.STOPPED, sentence)
-        elif touched:
-            self._ending = End(Status.CORNER, f"the orbit begins to touch {touched}: its motion is smooth no more")
         elif before is not None and _shrunk(before, p):
             at_end = shrunk_to(orbits_at(p), path_at(p), p.local.values, self.held is not None)
             self._ending = End(Status.AT_REST, at_end)
