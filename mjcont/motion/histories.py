@@ -27,7 +27,7 @@ from mjcont.results.orbits import Orbit, OrbitPoint, SpecialOrbit, orbit_of
 from mjcont.results.points import Column, Point
 from mjcont.vectorfield import VectorField
 
-MODEL = "model"
+MODEL, _DEFAULT = "model", "discrete"
 _CASE_KEYS = ("inputs", "start", "keyframe", "state", "velocity")
 _MAX_STEPS = 20_000_000
 _MAX_HALVINGS = 12
@@ -69,7 +69,7 @@ def simulate(
     state: Any = None,
     velocity: Any = None,
     timestep: float | None = None,
-    integrator: str = "discrete",
+    integrator: str = _DEFAULT,
     tol: float | None = None,
     control_step: float | None = None,
     until_rest: float | None = None,
@@ -91,8 +91,7 @@ def simulate(
     start : dict of parameter values, or a point
         With `keyframe` or `state` it says where the motion begins; at rest unless `velocity` (nv,) is given.
     timestep : float, optional
-        In s; default the model's own. With `tol` the first and largest that is tried. A vector field has steps of its
-        integrator's own (LSODA), as exact as `tol` asks.
+        In s; default the model's own. With `tol` the first and largest. A vector field's integrator (LSODA) has its own.
     integrator : {"discrete", "implicitfast", "implicit", "Euler", "RK4", "model"}
         "discrete" is implicit in the stiffness of bushes and stable with any of it, of first order; "RK4" is the most
         accurate where the step resolves the fastest bush mode; "model" is the one that the model names.
@@ -103,10 +102,8 @@ def simulate(
         In s, between samples of controllers; default the model's own time step.
     until_rest : float, optional
         End when every speed (rad/s, or sizes of the model per s) has stayed below this over 1 s.
-    samples : int
-        About how many samples are recorded, evenly spaced in time.
-    max_steps : int
-        Steps that one run may take; a longer one is "stalled".
+    samples, max_steps : int
+        About how many samples are recorded, evenly spaced; steps that a run may take, a longer one is "stalled".
 
     Returns
     -------
@@ -116,23 +113,26 @@ def simulate(
     Raises
     ------
     NameLookupError, ParameterError, BoundsError
-        See their messages.
     """
-    case = {"inputs": inputs, "start": start, "keyframe": keyframe, "state": state, "velocity": velocity}
-    model, case, length = _begun(problem, case)
-    length = duration if duration is not None else length
+    given = {"inputs": inputs, "start": start, "keyframe": keyframe, "state": state, "velocity": velocity}
+    model, case, length = _begun(problem, given)
     steps = {"timestep": timestep, "integrator": integrator, "control_step": control_step}
     ends = {"tol": tol, "until_rest": until_rest, "samples": samples, "max_steps": max_steps}
+    return _simulated(model, case, duration if duration is not None else length, steps, ends)
+
+
+def _simulated(
+    model: Model, case: Mapping[str, Any], duration: float, steps: Mapping[str, Any], ends: Mapping[str, Any]
+) -> History:
+    """Return the motion of a model in a case."""
     if isinstance(model, Mechanism):
-        return simulate_many(model, [case], length, **steps, **ends)[0]  # type: ignore[arg-type]
-    given = {"keyframe": keyframe, "velocity": velocity, **steps, "integrator": None}
-    for name in (n for n, value in given.items() if value is not None):
-        raise ParameterError(f"{name} is for a Mechanism: {model.name} is a vector field")
+        return simulate_many(model, [case], duration, **steps, **ends)[0]
+    own = {"keyframe": case.get("keyframe"), "velocity": case.get("velocity"), **steps}
+    for name, value in own.items():
+        if value is not None and (name, value) != ("integrator", _DEFAULT):
+            raise ParameterError(f"{name} is for a Mechanism: {model.name} is a vector field")
     assert isinstance(model, VectorField)
-    return simulate_field(
-        model, case["inputs"], length, case["start"], state=case["state"], tol=tol, until_rest=until_rest,
-        samples=samples, max_steps=max_steps,
-    )
+    return simulate_field(model, case["inputs"], duration, case["start"], state=case["state"], **ends)
 
 
 def _begun(problem: Any, case: dict[str, Any]) -> tuple[Model, dict[str, Any], float]:

@@ -20,7 +20,7 @@ from mjcont.numerics.points.events import Detector
 from mjcont.numerics.step.arclength import CurvePoint, tangent_at
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace
-from mjcont.oscillation.collect import collect, make_orbit, reporter, verdict
+from mjcont.oscillation.collect import collect, flow_at, make_orbit, reporter, verdict
 from mjcont.oscillation.fields import FieldFlow
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import Forcing, Harmonic, make_forcing

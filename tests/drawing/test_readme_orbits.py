@@ -14,7 +14,8 @@ README = Path(__file__).parent.parent.parent / "README.md"
 
 
 def test_the_example_draws_cycles_and_a_resonance_that_are_checked(tmp_path, monkeypatch, capsys):
-    (code,) = [b for b in re.findall(r"```python\n(.*?)```", README.read_text("utf-8"), re.S) if "continue_cycles(" in b]
+    blocks = re.findall(r"```python\n(.*?)```", README.read_text("utf-8"), re.S)
+    (code,) = [block for block in blocks if "continue_cycles(" in block]
     monkeypatch.chdir(tmp_path)
     names = {"mc": mc}
     exec(code, names)  # noqa: S102

@@ -49,6 +49,8 @@ def test_a_field_comes_to_rest():
 def test_what_a_field_does_not_take_is_named():
     with pytest.raises(mc.ParameterError, match="timestep is for a Mechanism"):
         mc.simulate(TURN, timestep=0.1)
+    with pytest.raises(mc.ParameterError, match="integrator is for a Mechanism"):
+        mc.simulate(TURN, integrator="RK4")
     with pytest.raises(mc.ParameterError, match="input 'w' is a controller"):
         mc.simulate(TURN, {"w": lambda t, seen: 0.0})
 
