@@ -91,7 +91,7 @@ def simulate(
     start : dict of parameter values, or a point
         With `keyframe` or `state` it says where the motion begins; at rest unless `velocity` (nv,) is given.
     timestep : float, optional
-        In s; default the model's own. With `tol` the first and largest. A vector field's integrator (LSODA) has its own.
+        In s; default the model's own. With `tol` the first and largest. A vector field has its integrator's (LSODA).
     integrator : {"discrete", "implicitfast", "implicit", "Euler", "RK4", "model"}
         "discrete" is implicit in the stiffness of bushes and stable with any of it, of first order; "RK4" is the most
         accurate where the step resolves the fastest bush mode; "model" is the one that the model names.
