@@ -74,8 +74,29 @@ def unlocking() -> None:
     mc.animate(path, OUT / "unlocking.gif", "F_ret", "theta_ov", fps=20, size=(720, 340))
 
 
+def flutter() -> None:
+    """Draw the rods' flutter over their rest, its cycles, and the resonance of a shaken truss."""
+    rods = mc.Mechanism.from_xml("ziegler_rods")
+    rest = mc.continue_equilibria(rods, "P", bounds=(1.4, 2.2), start={"P": 1.4})
+    cycles = mc.continue_cycles(rest.point("HB1"))
+    truss = mc.Mechanism.from_xml("von_mises_truss")
+    response = mc.continue_response(
+        truss, "frequency", (2.5, 5.5), {"P": mc.Harmonic(15.0)}, {"joint:z.damping": 2.0}, ds_max=0.05
+    )
+    figure, axes = new_figure(1, 3, (11.0, 3.4))
+    mc.plot(rest, cycles, x="P", y="q1", ax=axes[0])
+    mc.plot_orbits(cycles, x="q1", y="q2", n=6, ax=axes[1])
+    mc.plot(response, x="frequency", y="z.amplitude", ax=axes[2])
+    titles = ("rods under a follower load flutter", "their cycles", "a truss that is shaken")
+    for ax, title in zip(axes, titles, strict=True):
+        set_panel_title(ax, title)
+        place_labels(ax)
+    save_figure(figure, OUT / "flutter.png", dpi=110)
+
+
 if __name__ == "__main__":
     OUT.mkdir(exist_ok=True)
+    flutter()
     hysteresis()
     overcentre()
     poses()

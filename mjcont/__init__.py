@@ -33,10 +33,10 @@ if TYPE_CHECKING:
     from mjcont.curves.continuation import continue_equilibria, find_equilibrium, iterate_equilibria
     from mjcont.curves.diagram import bifurcation_diagram, switch_branches
     from mjcont.curves.extension import extend
-    from mjcont.curves.loci import continue_special
     from mjcont.curves.search import find_equilibria
     from mjcont.curves.stiffness import stiffness_study
     from mjcont.drawing.animation import animate
+    from mjcont.drawing.orbits import plot_orbits
     from mjcont.drawing.plotting import plot
     from mjcont.drawing.poses import add_poses, draw, draw_poses
     from mjcont.influence.critical import follow_point
@@ -51,6 +51,10 @@ if TYPE_CHECKING:
     from mjcont.motion.histories import simulate, simulate_many
     from mjcont.motion.loadpaths import load_path
     from mjcont.numerics.equations.settings import Settings
+    from mjcont.oscillation.cycles import continue_cycles, find_cycle
+    from mjcont.oscillation.forced import Harmonic
+    from mjcont.oscillation.loci import continue_special
+    from mjcont.oscillation.responses import continue_response
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
     from mjcont.results.branch import Branch, Diagram
     from mjcont.results.certificates import Certificate
@@ -58,6 +62,7 @@ if TYPE_CHECKING:
     from mjcont.results.histories import History
     from mjcont.results.loadpaths import Jump, LoadPath, Segment
     from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
+    from mjcont.results.orbits import CycleBranch, Orbit
     from mjcont.results.points import Column, Point, SpecialPoint
     from mjcont.results.search import Equilibria, Equilibrium
     from mjcont.results.sensitivities import Sensitivities
@@ -72,10 +77,11 @@ _HOMES = {
     "mjcont.curves.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.curves.diagram": ("bifurcation_diagram", "switch_branches"),
     "mjcont.curves.extension": ("extend",),
-    "mjcont.curves.loci": ("continue_special",),
+    "mjcont.oscillation.loci": ("continue_special",),
     "mjcont.curves.search": ("find_equilibria",),
     "mjcont.curves.stiffness": ("stiffness_study",),
     "mjcont.drawing.animation": ("animate",),
+    "mjcont.drawing.orbits": ("plot_orbits",),
     "mjcont.drawing.plotting": ("plot",),
     "mjcont.drawing.poses": ("add_poses", "draw", "draw_poses"),
     "mjcont.influence.critical": ("follow_point",),
@@ -90,6 +96,9 @@ _HOMES = {
     "mjcont.motion.histories": ("simulate", "simulate_many"),
     "mjcont.motion.loadpaths": ("load_path",),
     "mjcont.numerics.equations.settings": ("Settings",),
+    "mjcont.oscillation.cycles": ("continue_cycles", "find_cycle"),
+    "mjcont.oscillation.forced": ("Harmonic",),
+    "mjcont.oscillation.responses": ("continue_response",),
     "mjcont.results.barriers": ("Barrier", "BarrierCurve", "BarrierMap"),
     "mjcont.results.branch": ("Branch", "Diagram"),
     "mjcont.results.certificates": ("Certificate",),
@@ -97,6 +106,7 @@ _HOMES = {
     "mjcont.results.histories": ("History",),
     "mjcont.results.loadpaths": ("Jump", "LoadPath", "Segment"),
     "mjcont.results.maps": ("FollowedPoint", "SpecialMap", "WorstCase"),
+    "mjcont.results.orbits": ("CycleBranch", "Orbit"),
     "mjcont.results.points": ("Column", "Point", "SpecialPoint"),
     "mjcont.results.search": ("Equilibria", "Equilibrium"),
     "mjcont.results.sensitivities": ("Sensitivities",),
@@ -118,11 +128,13 @@ __all__ = [
     "Certificate",
     "Column",
     "ConstraintStiffness",
+    "CycleBranch",
     "Diagram",
     "Equilibria",
     "Equilibrium",
     "FollowedPoint",
     "FunctionError",
+    "Harmonic",
     "History",
     "Jump",
     "LoadPath",
@@ -131,6 +143,7 @@ __all__ = [
     "ModelError",
     "ModelWarning",
     "NameLookupError",
+    "Orbit",
     "ParameterError",
     "Point",
     "ResultFileError",
@@ -155,12 +168,15 @@ __all__ = [
     "bifurcation_diagram",
     "bushed_xml",
     "constraint_stiffness",
+    "continue_cycles",
     "continue_equilibria",
+    "continue_response",
     "continue_special",
     "draw",
     "draw_poses",
     "energy_barrier",
     "extend",
+    "find_cycle",
     "find_equilibria",
     "find_equilibrium",
     "follow_point",
@@ -169,6 +185,7 @@ __all__ = [
     "load_path",
     "load_study",
     "plot",
+    "plot_orbits",
     "run_study",
     "sensitivities",
     "set_constraint_stiffness",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import inspect
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Self
@@ -39,12 +40,13 @@ _NOTHING = 1e-8
 
 
 class VectorField(Model):
-    """The first-order system u' = f(u, p) with named parameters.
+    """The first-order system u' = f(u, p), or u' = f(u, p, t) with a period in t, with named parameters.
 
     Parameters
     ----------
     function : callable
-        `function(u, p)` returns (n,); `u` is (n,), `p` a mapping of parameter names to floats.
+        `function(u, p)` returns (n,); `u` is (n,), `p` a mapping of parameter names to floats. It may take the time
+        as a third argument, in s: with a `period` it is forced, without one t is 0 wherever it is evaluated.
     u0 : array_like, (n,)
         Default start.
     parameters : mapping of str to float
@@ -60,6 +62,9 @@ class VectorField(Model):
         start from 1 and take the sizes that the components are found to have, where these are far from it.
     bounds : mapping of str to (low, high), optional
         Default range of each parameter.
+    period : callable, optional
+        `period(p)` returns the period of the forcing, in s. Such a field has responses (`continue_response`), no
+        equilibria.
 
     Raises
     ------
@@ -73,7 +78,7 @@ class VectorField(Model):
 
     def __init__(
         self,
-        function: Callable[[Array, Values], Any],
+        function: Callable[..., Any],
         u0: Any,
         parameters: Mapping[str, float],
         *,
@@ -83,8 +88,10 @@ class VectorField(Model):
         scale: Any = None,
         bounds: Mapping[str, tuple[float, float]] | None = None,
         name: str = "vector field",
+        period: Callable[[Values], float] | None = None,
     ) -> None:
-        self.name = name
+        self.name, self.period = name, period
+        self.timed = _takes_time(function)
         self.n = np.size(u0)
         if self.n == 0:
             raise ParameterError("u0 is empty: a vector field needs at least one unknown")
@@ -157,11 +164,15 @@ class VectorField(Model):
 
     def residual(self, x: Array, values: Values) -> Array:
         """Return f, (n,); NaN where the function overflows or leaves its domain."""
+        return self.rate(x, values, 0.0)
+
+    def rate(self, x: Array, values: Values, time: float) -> Array:
+        """Return f at a time, in s, (n,), as `residual`."""
         check()
         thread = threading.get_ident()
         self._counts[thread] = self._counts.get(thread, 0) + 1
         try:
-            found = np.array(self.function(x, values), dtype=float)
+            found = np.array(self.function(x, values, time) if self.timed else self.function(x, values), dtype=float)
         except MjcontError:
             raise
         except Exception as error:
@@ -256,6 +267,16 @@ def _measured(observable: Observable, values: Values, x: Array) -> float:
         if leaves_domain(error):
             return np.nan
         raise FunctionError(f"observable '{observable.name}' raised {type(error).__name__}: {error}") from error
+
+
+def _takes_time(function: Callable[..., Any]) -> bool:
+    """Whether a function must be given three arguments."""
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        return False
+    positional = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    return sum(p.kind in positional and p.default is p.empty for p in parameters) == 3
 
 
 def _component(i: int) -> Callable[[Any, Any], float]:

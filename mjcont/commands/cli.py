@@ -118,13 +118,14 @@ def _sweep(args: argparse.Namespace) -> int:
 
 def _plot(args: argparse.Namespace) -> int:
     from mjcont.drawing.plotting import plot, save_figure
+    from mjcont.results.branch import Branch
 
     out = _output(args.out, ".png", args.files)
     branches = [_load_curve(file) for file in args.files]
     for file, branch in zip(args.files, branches, strict=True):
         for column in (args.x, args.y):
             with _naming(file):
-                _ = branch[column]
+                _ = [branch[name] for name in (branch.drawn(column) if isinstance(branch, Branch) else [column])]
     axes: Any = plot(*branches, x=args.x, y=args.y, labels=args.labels, degrees=args.degrees)
     save_figure(axes.figure, out)
     say(f"plot: {out}")

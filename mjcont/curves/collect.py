@@ -25,9 +25,8 @@ from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.steps import End, Item, Status
 from mjcont.numerics.walk.trace import Trace, Walker, time_up, trace
 from mjcont.results.branch import Branch
-from mjcont.results.model import Model, model_of, units
+from mjcont.results.model import Model, model_of, provenance, units
 from mjcont.results.points import Column, Mark, Point, show
-from mjcont.results.provenance import provenance
 from mjcont.results.spectra import Late, Spectra
 
 

@@ -30,6 +30,7 @@ from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Trace, Walker, trace
 from mjcont.results.branch import Branch
 from mjcont.results.model import check_bounds, model_of
+from mjcont.results.orbits import CycleBranch
 from mjcont.results.points import Mark
 
 _ENDS = ("first", "last")
@@ -59,6 +60,9 @@ def extend(
         If the branch is closed or was loaded without its problem.
     """
     model_of(branch.problem, "the branch")
+    if isinstance(branch, CycleBranch):
+        raise MjcontError("extend is for equilibria and their loci: follow orbits on by continue_cycles or "
+                          "continue_response from curve[-1]")
     if branch.status == "closed":
         raise MjcontError("the branch is closed: it has no ends to extend")
     for end in ends:

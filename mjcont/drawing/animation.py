@@ -26,21 +26,25 @@ from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.branch import Branch
 from mjcont.results.histories import History
+from mjcont.results.orbits import Orbit, OrbitPoint, SpecialOrbit, orbit_of
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
+Orbits = Orbit | OrbitPoint | SpecialOrbit
 RENDERINGS = ("drawing", "mujoco")
 _DPI = 100.0
 _MOST_FRAMES, _SIDES = 5000, (64, 4096)
 _SECONDS, _REAL_TIME = 8.0, (2.0, 20.0)
+# samples of a period between which an animation moves in straight lines
+_SMOOTH = 401
 _TIGHT = 0.03
 _MOVING = "#d1281f"
 
 
 def animate(
-    result: Result,
+    result: Result | Orbits,
     path: str | Path,
     x: str | None = None,
     y: str | None = None,
@@ -58,22 +62,20 @@ def animate(
     """Write an animation of a mechanism beside the moving point on its diagram, as GIF or MP4, and return its path.
 
     A history moves evenly in time. Along a branch, a locus or a load path the point moves evenly over the diagram; the
-    motions of a load path's jumps are shown, each at its own pace.
+    motions of a load path's jumps are shown, each at its own pace. An orbit loops through its period without a seam.
 
     Parameters
     ----------
-    result : History, Branch or LoadPath
-    path : a .gif, or an .mp4 where ffmpeg is installed; written whole or not at all.
+    result : History, Branch, LoadPath, Orbit or a point of a curve of orbits
+    path : a .gif, or an .mp4 where ffmpeg is installed.
     x, y : str, optional
         Columns of the diagram. Default time against the first observable for a history, else the parameter against
         the first observable, for a locus its two parameters.
     on : what to draw the diagram of; default for a history x becomes the branch's parameter.
-    fps : frames a second.
-    seconds : float, optional
-        Length of the animation; default real time for histories of 2 to 20 s, otherwise the nearer of these, and 8 s
+    fps, seconds : frames a second, and the animation's length
+        Default real time for histories of 2 to 20 s, otherwise the nearer of these, and 8 s
         for branches and load paths.
-    size, degrees : width and height in pixels; whether angles are shown in degrees.
-    plane : as for `draw`.
+    size, degrees, plane : width and height in pixels; whether angles are shown in degrees; as for `draw`.
     rendering : {"drawing", "mujoco"}
         How the mechanism is shown: drawn in its plane by matplotlib, or rendered by MuJoCo, which needs OpenGL.
     camera : with MuJoCo, the name of one of the model's cameras; default its free camera.
@@ -81,17 +83,18 @@ def animate(
 
     Raises
     ------
-    MjcontError
-        If the suffix, a number, or the result is not one that can be shown, ffmpeg or OpenGL is missing, there is
-        no such column, camera or rendering, or a drawing is asked of a mechanism that does not move in a plane.
+    MjcontError, NameLookupError
+        If the suffix, a number or the result is not one that can be shown, ffmpeg or OpenGL is missing, there is no
+        such column, camera or rendering, or a drawing is asked of a mechanism that does not move in a plane.
     """
     path, beneath = Path(path), _branches(on)
+    result, loops = _period(result)
     _check_options(fps, seconds, size, rendering, camera)
     check_movie(path, fps)
     columns = _columns(result, beneath, x, y)
     track = track_of(result, *columns)
     length = seconds if seconds is not None else _length(result)
-    frames = frames_of(track, _count(length, fps))
+    frames = frames_of(track, _count(length, fps) + loops)[: -1 if loops else None]
     actor: _Drawn | _Rendered = _Rendered(track, camera) if rendering == "mujoco" else _Drawn(track, frames, plane)
     try:
         stage = _Stage(result, beneath, track, columns, size, degrees, actor)
@@ -99,6 +102,11 @@ def animate(
         return write_movie(path, lambda k: stage.image(frames[k], k), len(frames), fps, progress)
     finally:
         actor.close()
+
+
+def _period(result: Result | Orbits) -> tuple[Result, bool]:
+    """Return what is shown, of an orbit its history, and whether its last moment is its first."""
+    return (orbit_of(result).history(_SMOOTH), True) if isinstance(result, Orbits) else (result, False)
 
 
 def _columns(result: Result, beneath: Sequence[Branch], x: str | None, y: str | None) -> tuple[str, str]:

@@ -20,6 +20,7 @@ from mjcont.outside.escapes import for_picture
 from mjcont.results.branch import Branch
 from mjcont.results.histories import History
 from mjcont.results.loadpaths import Jump, LoadPath
+from mjcont.results.orbits import CycleBranch
 from mjcont.results.points import show
 
 Result = History | Branch | LoadPath
@@ -85,6 +86,8 @@ def track_of(result: Result, x: str, y: str) -> Track:
     NameLookupError
         If it has no such column.
     """
+    if isinstance(result, CycleBranch):
+        raise MjcontError("animate shows one orbit of a curve of orbits: animate(curve[12].orbit, ...)")
     if not isinstance(result, Result):
         raise MjcontError(f"animate shows a History, a Branch or a LoadPath, got a {type(result).__name__}")
     mechanism_of(result)
@@ -131,7 +134,7 @@ def _of_history(history: History, x: str, y: str) -> Track:
 
 def _of_branch(branch: Branch, x: str, y: str) -> Track:
     values = [branch.parameters_at(i) for i in range(len(branch))]
-    notes = [str(s) for s in branch.stability] if branch.kind == "equilibria" else [""] * len(branch)
+    notes = [str(s) for s in branch.stability] if branch.rated else [""] * len(branch)
     named = {n: branch.unit(n) for n in branch.free}
     xs, ys = branch[x], branch[y]
     return Track(mechanism_of(branch), branch.states, values, xs, ys, _arclength(xs, ys, xs, ys), notes, named)

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
+Line = tuple[Array, Array, Collection[int]]
 COLORS = ("#1b4f8a", "#c4541a", "#2a7d5f", "#7b3fa0", "#8a6d1b", "#b02a4a", "#4d4d4d")
 GREY = "#6e6e6e"
 LINE_STYLES: Mapping[str, Any] = {"stable": "-", "unstable": (0, (4.5, 2.0)), "marginal": (0, (1.0, 1.4))}
@@ -88,13 +89,14 @@ def plot(
 ) -> Axes:
     """Draw branches and loci: solid where stable, dashed where unstable, dotted where marginal; loci solid.
 
-    A load path is a broad line with arrows over them, its jumps are dotted arrows.
+    Of orbits an observable is drawn by its largest and smallest value, so that they lie over equilibria. A load path is
+    a broad line with arrows over them, its jumps are dotted arrows.
 
     Parameters
     ----------
     *curves : Branch or LoadPath
     x, y : str
-        Columns: parameters or observables.
+        Columns: parameters or observables; `y` of a curve of orbits may be an observable or one of its columns.
     ax : matplotlib Axes, optional
         Where to draw; default a new figure, which is `plot(...).figure`. It needs no display.
     degrees : whether angles are drawn in degrees.
@@ -117,17 +119,16 @@ def plot(
     for path in paths:
         _ = path[x], path[y]
     # Everything is read before anything is drawn, so that an unknown column leaves the axes as they were.
-    data = [(_column(b, x, degrees), _column(b, y, degrees), _breaks(b, (x, y)) if wrap else ()) for b in branches]
+    data = [_lines(b, x, y, degrees, wrap) for b in branches]
     if ax is None:
         _, ax = new_figure()
     drawn = sum(len(_xy(line)) == 0 for line in ax.lines)
     palette = colors or [COLORS[(drawn + i) % len(COLORS)] for i in range(len(branches))]
-    for i, (branch, name, (xs, ys, breaks)) in enumerate(zip(branches, _names(branches, legend), data, strict=True)):
+    for i, (branch, name, lines) in enumerate(zip(branches, _names(branches, legend), data, strict=True)):
         color = palette[i % len(palette)]
         # An empty line carries the branch's name: its first piece may be dashed, and it counts the colours used.
         ax.plot([], [], color=color, label=name or "_branch")
-        draw_curve(ax, xs, ys, pieces(branch), color=color, breaks=breaks)
-        draw_points(ax, xs, ys, branch.special_points, labels=labels, color=color)
+        _draw_branch(ax, branch, lines, labels, color)
     for i, path in enumerate(paths):
         color = (colors or COLORS[1:])[(len(branches) * bool(colors) + i) % len(colors or COLORS[1:])]
         draw_path(ax, path, x, y, degrees=degrees, color=color, labels=labels is not False and not branches)
@@ -135,6 +136,15 @@ def plot(
     _explain(ax, branches, legend)
     place_labels(ax)
     return ax
+
+
+def _draw_branch(
+    ax: Axes, branch: Branch, lines: Sequence[Line], labels: bool | Mapping[str, str], color: str
+) -> None:
+    """Draw the lines that show a branch, its special points named on the first of them."""
+    for k, (xs, ys, breaks) in enumerate(lines):
+        draw_curve(ax, xs, ys, pieces(branch), color=color, breaks=breaks)
+        draw_points(ax, xs, ys, branch.special_points, labels=labels if k == 0 else False, color=color)
 
 
 def _explain(ax: Axes, branches: Iterable[Branch], legend: Sequence[str] | bool | None) -> None:
@@ -146,14 +156,14 @@ def _explain(ax: Axes, branches: Iterable[Branch], legend: Sequence[str] | bool 
 
 
 def _explain_styles(ax: Axes, branches: Iterable[Branch]) -> None:
-    present = {w for b in branches if b.kind == "equilibria" for w, _, _ in pieces(b)}
+    present = {w for b in branches if b.rated for w, _, _ in pieces(b)}
     for word in (w for w in LINE_STYLES if w in present):
         ax.plot([], [], color=GREY, linestyle=LINE_STYLES[word], label=word)
 
 
 def pieces(branch: Branch) -> list[tuple[str, int, int]]:
     """Return (stability, first row, last row) of the pieces of a branch; neighbours share a row. Loci are one piece."""
-    if branch.kind != "equilibria":
+    if not branch.rated:
         return [("stable", 0, len(branch) - 1)]
     return split_by_stability(branch.stability, {p.index for p in branch.special_points})
 
@@ -333,8 +343,15 @@ def _check(branches: Sequence[Any], legend: Sequence[str] | bool | None, paths: 
         raise MjcontError(f"legend must be a list with a name for each branch ({count} in all), got {legend!r}")
 
 
+def _lines(branch: Branch, x: str, y: str, degrees: bool, wrap: bool) -> list[Line]:
+    """Return the lines that show a branch: xs, ys, and the rows after which they are cut."""
+    xs = _column(branch, x, degrees)
+    return [(xs, _column(branch, n, degrees), _breaks(branch, (x, n)) if wrap else ()) for n in branch.drawn(y)]
+
+
 def _unit(branch: Branch, name: str) -> str:
     """Return the unit of a column, also of a parameter that the branch holds fixed."""
+    name = branch.drawn(name)[0]
     own = column_of(name, branch.columns)
     if own is not None or branch.problem is None:
         return branch.units.get(own or name, "")

@@ -29,6 +29,7 @@ from mjcont.numerics.points import normalform
 from mjcont.numerics.points.events import ScalarZero
 from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of, name_of
 from mjcont.results.maps import FollowedPoint
+from mjcont.results.orbits import OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point, SpecialPoint, show
 
 SUPPORTED = (*CONTINUABLE, "UZ")
@@ -50,6 +51,8 @@ def defining_kind(point: Point) -> str:
     """
     if point.problem is None:
         raise MjcontError("the point was loaded without its problem: mc.load(path, problem=...)")
+    if isinstance(point, OrbitPoint | SpecialOrbit):
+        raise MjcontError("the point is a periodic orbit: this is for equilibria and their special points")
     if not isinstance(point, SpecialPoint) or point.kind in ("", "EP"):
         return ""
     if not point.converged:

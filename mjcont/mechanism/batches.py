@@ -118,15 +118,20 @@ class ConstrainedRows:
         return out
 
     def accelerations(self, qpos: Array, qvel: Array, writer: FieldWriter) -> Array:
-        """Return qacc for every row, (m, nv)."""
+        """Return qacc for every row, (m, nv); `touched` then has the names of what carried load in any."""
         m, d = self._model, self._data
         out = np.empty((len(qpos), m.nv))
+        self.touched: list[frozenset[str]] = []
         writer.inputs.put(d)
         with quiet:
             for i, x in enumerate(qpos):
                 d.qpos[:], d.qvel[:], d.qacc_warmstart[:] = x, qvel[i], 0.0
                 mujoco.mj_forward(m, d)
                 out[i] = d.qacc if self._warned.spoilt() is None else np.nan
+                names = frozenset(_loaded(m, d)) if d.nefc else frozenset()
+                if self._kinks is not None:
+                    names |= self._kinks.names(m, codes_at(self._kinks, m, d))
+                self.touched.append(names)
         return out
 
     def active(self, x: Array, writer: FieldWriter) -> frozenset[str]:

@@ -83,20 +83,34 @@ class Evaluator:
         return self._last.sides if self.nonsmooth and self._last is not None else []
 
     @property
+    def one_by_one(self) -> bool:
+        """Whether rows are evaluated one after the other, all with the writer's inputs."""
+        return self._constrained is not None
+
+    @property
     def nonsmooth(self) -> bool:
         """Whether the forces are smooth in pieces only."""
         return self._constrained is not None or self._kinks is not None
 
-    def accelerations(self, qpos: Array, qvel: Array) -> Array:
-        """Return qacc for every row, (m, nv)."""
+    def accelerations(self, qpos: Array, qvel: Array, ctrl: Array | None = None) -> Array:
+        """Return qacc for every row, (m, nv); `ctrl` (m, nu) gives smooth models rows with controls of their own."""
         self.count += len(qpos)
         if self.writer.failure:
             return np.full((len(qpos), self.model.nv), np.nan)
         if self._constrained is not None:
             return self._constrained.accelerations(qpos, qvel, self.writer)
-        rows = self._rows(len(qpos))
-        rows.forward(qpos, qvel, self.writer)
+        rows = self._last = self._rows(len(qpos))
+        rows.forward(qpos, qvel, self.writer, ctrl)
         return rows.acceleration()
+
+    def touched(self, count: int) -> list[frozenset[str]]:
+        """Return the names of what was busy in each of the first `count` rows of the last accelerations."""
+        if self._constrained is not None:
+            return self._constrained.touched[:count]
+        if self._kinks is None or not isinstance(self._last, Rows):
+            return []
+        kinks, codes = self._kinks, self._last.codes[:count]
+        return [kinks.names(self.model, row) for row in codes]
 
     def active(self, x: Array) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest, and of what `kinks` finds busy."""

@@ -27,6 +27,7 @@ from mjcont.mechanism.batches import load_side
 from mjcont.mechanism.inputs import DataInputs
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.quiet import quiet, quiet_data
+from mjcont.motion.beside import check_beside, check_of
 from mjcont.motion.stepping import INTEGRATORS
 from mjcont.numerics.equations.algebra import singular
 from mjcont.numerics.equations.problem import Array, Pencil
@@ -79,8 +80,13 @@ def verify_stability(
 ) -> Branch:
     """Check the stability of points of a branch by simulation; the branch returned carries the certificate.
 
+    Beside an equilibrium motions grow or decay at the rate that its critical eigenvalue says, beside a periodic orbit
+    as its largest multiplier says.
+
     Parameters
     ----------
+    branch : Branch
+        A curve of equilibria or of orbits, of a Mechanism or a VectorField.
     n : int
         Number of points, spread evenly over the rows; or give the `rows`.
     amplitude : float
@@ -101,15 +107,35 @@ def verify_stability(
     Raises
     ------
     MjcontError
-        If the branch is no curve of equilibria of a Mechanism, or was loaded without it.
+        If the branch is a locus, or was loaded without its problem.
     """
-    if not isinstance(branch.problem, Mechanism) or branch.kind != "equilibria":
-        raise MjcontError("verify_stability needs a curve of equilibria of a Mechanism (loaded with it)")
+    if branch.problem is None or not branch.rated:
+        raise MjcontError("verify_stability needs a curve of equilibria or of orbits, loaded with its problem")
     if n < 1 or not amplitude > 0 or not tolerance > 0 or not resolution > 0:
         raise ParameterError("n, amplitude, tolerance and resolution must be positive")
     rows = _rows(branch, n, rows)
+    if not isinstance(branch.problem, Mechanism) or branch.kind != "equilibria":
+        checks = check_beside(branch, rows, amplitude, tolerance, resolution, max_steps)
+    else:
+        checks = _check_rests(branch, branch.problem, rows, amplitude, tolerance, resolution, max_steps, nthread)
+    units = {name: branch.unit(name) for name in branch.free}
+    certificate = Certificate(tuple(sorted(checks, key=lambda c: c.index)), tolerance, resolution, units)
+    return replace(branch, certificate=certificate)
+
+
+def _check_rests(
+    branch: Branch,
+    problem: Mechanism,
+    rows: Sequence[int],
+    amplitude: float,
+    tolerance: float,
+    resolution: float,
+    max_steps: int,
+    nthread: int | None,
+) -> list[Check]:
+    """Check equilibria of a mechanism."""
     first = branch.row(0)
-    mechanism, _ = hold_rigid_modes(branch.problem, first.state, first.parameters)
+    mechanism, _ = hold_rigid_modes(problem, first.state, first.parameters)
     probes, checks = [], []
     for row in rows:
         found = _probe(mechanism, branch, row, amplitude, resolution, max_steps)
@@ -121,9 +147,7 @@ def verify_stability(
         for group in _groups(probes):
             rates = _measure(mechanism, group, nthread or os.cpu_count() or 1)
             checks += [_judge(branch, p, *r, tolerance) for p, r in zip(group, rates, strict=True)]
-    units = {name: branch.unit(name) for name in branch.free}
-    certificate = Certificate(tuple(sorted(checks, key=lambda c: c.index)), tolerance, resolution, units)
-    return replace(branch, certificate=certificate)
+    return checks
 
 
 def _rows(branch: Branch, n: int, given: Sequence[int] | None) -> Sequence[int]:
@@ -142,9 +166,7 @@ def _critical(branch: Branch, row: int) -> complex:
 
 
 def _check(branch: Branch, row: int, rate: float, time: float, verdict: str, sentence: str) -> Check:
-    parameters = {name: float(branch[name][row]) for name in branch.free}
-    stability, s = str(branch.stability[row]), _critical(branch, row)
-    return Check(row, branch.labels[row], parameters, stability, s, float(rate), float(time), verdict, sentence)
+    return check_of(branch, row, _critical(branch, row), rate, time, verdict, sentence)
 
 
 def _probe(

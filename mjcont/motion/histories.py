@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,20 +17,25 @@ import numpy as np
 from mjcont.curves.continuation import start_from
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
+from mjcont.motion.fields import simulate_field
 from mjcont.motion.signals import Input, read_inputs
 from mjcont.motion.stepping import INTEGRATORS, Case, Grid, Track, run
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import check_numbers
 from mjcont.results.histories import History
+from mjcont.results.model import Model, model_of
+from mjcont.results.orbits import Orbit, OrbitPoint, SpecialOrbit, orbit_of
 from mjcont.results.points import Column, Point
 from mjcont.results.quantities import finite_array
+from mjcont.vectorfield import VectorField
 
-MODEL = "model"
+MODEL, _DEFAULT = "model", "discrete"
 _CASE_KEYS = ("inputs", "start", "keyframe", "state", "velocity")
 _MAX_STEPS = 20_000_000
 _MAX_HALVINGS = 12
 # more steps than a computer takes in a lifetime, few enough to be counted, and halved, in 64 bits
 _COUNTED = 1e12
+_SECONDS, _PERIODS = 10.0, 10.0
 # motion below this part of the model's size counts as none in a relative change
 _NO_MOTION = 1e-6
 
@@ -59,36 +64,38 @@ class _Outcome:
 
 
 def simulate(
-    mechanism: Mechanism,
+    problem: Model | Orbit | OrbitPoint | SpecialOrbit,
     inputs: Mapping[str, Input] | None = None,
-    duration: float = 10.0,
+    duration: float | None = None,
     start: Mapping[str, float] | Point | None = None,
     *,
     keyframe: str | None = None,
     state: Any = None,
     velocity: Any = None,
     timestep: float | None = None,
-    integrator: str = "discrete",
+    integrator: str = _DEFAULT,
     tol: float | None = None,
     control_step: float | None = None,
     until_rest: float | None = None,
     samples: int = 2000,
     max_steps: int = _MAX_STEPS,
 ) -> History:
-    """Return the motion of a mechanism under inputs that vary with time.
+    """Return the motion of a model under inputs that vary with time.
 
     Parameters
     ----------
+    problem : Mechanism, VectorField, Orbit or a point of a curve of orbits
+        An orbit begins the motion on itself, under its forcing and the inputs given.
     inputs : mapping of parameter to number, function f(t), (times, values), or controller u(t, observables)
         Values between given times are interpolated linearly, and held before the first and after the last. A
         controller is any callable of two arguments: it sees observables by name, in SI and radians, with attributes
         `state` and `velocity`; its output saturates at the actuator's range. An object is copied for every run.
-    duration : float
-        In s.
+    duration : float, optional
+        In s; default 10 s, or 10 periods of an orbit.
     start : dict of parameter values, or a point
         With `keyframe` or `state` it says where the motion begins; at rest unless `velocity` (nv,) is given.
     timestep : float, optional
-        In s; default the model's own. With `tol` the first and largest that is tried.
+        In s; default the model's own. With `tol` the first and largest. A vector field has its integrator's (LSODA).
     integrator : {"discrete", "implicitfast", "implicit", "Euler", "RK4", "model"}
         "discrete" is implicit in the stiffness of bushes and stable with any of it, of first order; "RK4" is the most
         accurate where the step resolves the fastest bush mode; "model" is the one that the model names.
@@ -99,10 +106,8 @@ def simulate(
         In s, between samples of controllers; default the model's own time step.
     until_rest : float, optional
         End when every speed (rad/s, or sizes of the model per s) has stayed below this over 1 s.
-    samples : int
-        About how many samples are recorded, evenly spaced in time.
-    max_steps : int
-        Steps that one run may take; a longer one is "stalled".
+    samples, max_steps : int
+        About how many samples are recorded, evenly spaced; steps that a run may take, a longer one is "stalled".
 
     Returns
     -------
@@ -112,12 +117,47 @@ def simulate(
     Raises
     ------
     NameLookupError, ParameterError, BoundsError
-        See their messages.
     """
-    case = {"inputs": inputs, "start": start, "keyframe": keyframe, "state": state, "velocity": velocity}
-    options = {"timestep": timestep, "integrator": integrator, "tol": tol, "control_step": control_step}
-    more = {"until_rest": until_rest, "samples": samples, "max_steps": max_steps}
-    return simulate_many(mechanism, [case], duration, **options, **more)[0]  # type: ignore[arg-type]
+    given = {"inputs": inputs, "start": start, "keyframe": keyframe, "state": state, "velocity": velocity}
+    model, case, length = _begun(problem, given)
+    steps = {"timestep": timestep, "integrator": integrator, "control_step": control_step}
+    ends = {"tol": tol, "until_rest": until_rest, "samples": samples, "max_steps": max_steps}
+    return _simulated(model, case, duration if duration is not None else length, steps, ends)
+
+
+def _simulated(
+    model: Model, case: Mapping[str, Any], duration: float, steps: Mapping[str, Any], ends: Mapping[str, Any]
+) -> History:
+    """Return the motion of a model in a case."""
+    if isinstance(model, Mechanism):
+        return simulate_many(model, [case], duration, **steps, **ends)[0]
+    own = {"keyframe": case.get("keyframe"), "velocity": case.get("velocity"), **steps}
+    for name, value in own.items():
+        if value is not None and (name, value) != ("integrator", _DEFAULT):
+            raise ParameterError(f"{name} is for a Mechanism: {model.name} is a vector field")
+    assert isinstance(model, VectorField)
+    return simulate_field(model, case["inputs"], duration, case["start"], state=case["state"], **ends)
+
+
+def _begun(problem: Any, case: dict[str, Any]) -> tuple[Model, dict[str, Any], float]:
+    """Return the model, how its motion begins, and how long it goes unless told: of an orbit, ten periods on it."""
+    if isinstance(problem, Model):
+        return problem, case, _SECONDS
+    orbit = orbit_of(problem)
+    for name in ("start", "keyframe", "state", "velocity"):
+        if case[name] is not None:
+            raise ParameterError(f"{name}= says where a model's motion begins: an orbit begins on itself")
+    model, n = model_of(orbit.problem, "the orbit"), orbit.path.c
+    forced = {name: _driven(orbit, name) for name in orbit.inputs(np.zeros(1))}
+    begin = {"inputs": {**forced, **(case["inputs"] or {})}, "start": orbit.constants(), "state": orbit.at(0.0)[:n]}
+    if isinstance(model, Mechanism):
+        begin["velocity"] = orbit.at(0.0)[n:]
+    return model, begin, _PERIODS * orbit.period
+
+
+def _driven(orbit: Orbit, name: str) -> Callable[[float], float]:
+    """Return an input of an orbit as a function of time."""
+    return lambda t: float(orbit.inputs(np.array([t]))[name][0])
 
 
 def simulate_many(
@@ -268,7 +308,7 @@ def _status(outcome: _Outcome, plan: _Plan, last: float) -> tuple[str, str]:
 
 
 def _history(mechanism: Mechanism, case: Case, outcome: _Outcome, plan: _Plan, controlled: bool) -> History:
-    from mjcont.results.provenance import provenance
+    from mjcont.results.model import provenance
 
     track, grid = outcome.track, outcome.grid
     states, velocities = np.array(track.states), np.array(track.velocities)

@@ -81,6 +81,10 @@ class Branch:
             return np.full(len(self), self.fixed[name])
         raise unknown_name("column", name, [*self.columns, *self.fixed])
 
+    def drawn(self, name: str) -> list[str]:
+        """Return the columns that a diagram shows for a name: that of the name."""
+        return [name]
+
     def unit(self, name: str) -> str:
         """Return the unit of a column or of a fixed parameter."""
         if (own := column_of(name, self.columns)) is not None:
@@ -120,6 +124,11 @@ class Branch:
     def interrupted(self) -> bool:
         """Whether the user stopped the run."""
         return any(word == "interrupted" for word, _ in self.ends)
+
+    @property
+    def rated(self) -> bool:
+        """Whether the stability of rows says something: along curves of equilibria and of orbits, not along loci."""
+        return not self.kind.endswith("locus")
 
     def of_kind(self, kind: str) -> list[SpecialPoint]:
         """Return the special points of one kind, in order along the branch."""
@@ -213,7 +222,7 @@ class Branch:
             span = f"{show(values.min(), unit)} .. {show(values.max(), unit)}"
             lines.append(f"  {name}: {span} (bounds {show(low, unit)} .. {show(high, unit)})")
         lines.append(f"  start: {self.start}")
-        if self.kind == "equilibria":
+        if self.rated:
             lines.append("  stability: " + self._stability_runs())
         lines += [f"  {p}" for p in self.special_points] or ["  no special points"]
         lines += [f"  note: {n}" for n in self.notes]

@@ -15,6 +15,7 @@ from mjcont.results import histories, loadpaths, sweeps
 from mjcont.results.branchfiles import read_branch
 from mjcont.results.files import FORMAT_VERSION, Unfit, read_problem
 from mjcont.results.model import Model
+from mjcont.results.orbits.files import GROUP, read_cycles
 
 # What h5py, json and our own reading raise on files with parts missing or overwritten.
 _DAMAGED = (
@@ -22,7 +23,7 @@ _DAMAGED = (
     MemoryError, MjcontError, Damaged,
 )
 Reader = Callable[[h5py.File, Any], Any]
-# A branch states the kind of its curve instead: "equilibria", "LP locus", ...
+# A branch states the kind of its curve instead: "equilibria", "LP locus", "cycles", ...
 READERS: Mapping[str, Reader] = {
     histories.KIND: histories.read,
     loadpaths.KIND: loadpaths.read,
@@ -74,5 +75,5 @@ def _read(f: h5py.File, problem: Model | None, sealed: bool) -> Any:
         raise Unfit(f" has format version {version}; this mjcont reads up to {FORMAT_VERSION}: upgrade mjcont")
     if not sealed:
         refuse_broken_seal(f)
-    read: Reader = READERS.get(str(f.attrs["kind"]), read_branch)
+    read: Reader = READERS.get(str(f.attrs["kind"]), read_cycles if GROUP in f else read_branch)
     return read(f, read_problem(f, problem))

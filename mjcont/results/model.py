@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import Any, Self
+from functools import cache
+from importlib import metadata
+from typing import Any, Protocol, Self
 
 from mjcont.errors import BoundsError, MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array, Equations, Values
@@ -100,7 +103,15 @@ def units(problem: Model) -> dict[str, str]:
     return found | {o.name: o.unit for o in problem.observables.values()}
 
 
-def check_bounds(problem: Model, name: str, bounds: tuple[float, float] | None) -> tuple[float, float]:
+class Parametrised(Protocol):
+    """What has named parameters: a model, or a motion of one."""
+
+    def parameter(self, name: str) -> Parameter:
+        """Return a parameter by its name."""
+        ...
+
+
+def check_bounds(problem: Parametrised, name: str, bounds: tuple[float, float] | None) -> tuple[float, float]:
     """Return the bounds of a parameter: those given, or its own.
 
     Raises
@@ -122,3 +133,21 @@ def check_bounds(problem: Model, name: str, bounds: tuple[float, float] | None) 
             + ("" if parameter.springs else " or widen the range in the XML")
         )
     return low, high
+
+
+@cache
+def _versions() -> tuple[tuple[str, str], ...]:
+    """Return the versions of what results depend on."""
+    found = [(name, metadata.version(name)) for name in ("mujoco", "numpy", "scipy")]
+    try:
+        return (*found, ("mjcont", metadata.version("mjcont")))
+    except metadata.PackageNotFoundError:
+        return (*found, ("mjcont", "not installed"))
+
+
+def provenance(problem: Model | None) -> dict[str, str]:
+    """Return versions and the model's hash."""
+    versions = dict(_versions())
+    if problem is not None and problem.mjcf is not None:
+        versions["model_sha256"] = hashlib.sha256(problem.mjcf.encode()).hexdigest()
+    return versions

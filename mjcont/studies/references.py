@@ -12,7 +12,11 @@ from mjcont.studies.schema import Table
 
 _LABEL = re.compile(r"([A-Z]+)([1-9]\d*)")
 # labels of points: by kind of result those that it can have, and the names that it has for sure
-PLACES = {"search": (), "branch": ("start", "first", "last"), "locus": (), "diagram": (), "path": ("final",)}
+_ROWS = ("start", "first", "last")
+PLACES = {"search": (), "branch": _ROWS, "locus": (), "diagram": (), "path": ("final",), "cycles": _ROWS,
+          "response": _ROWS}
+# the curves, as kinds of special points know them, that are not called like their kind of result
+_CURVES = {"diagram": "branch", "response": "cycles"}
 
 
 def known_result(table: Table, key: str, name: str, kinds: Sequence[str], context: Context) -> Known:
@@ -70,7 +74,7 @@ def refer(
     places = PLACES[known.kind] if labels is None else ()
     if label in places:
         return Reference(name, label)
-    valid = {"search": ("E",), "path": ()}.get(known.kind, found_on("locus" if known.kind == "locus" else "branch"))
+    valid = {"search": ("E",), "path": ()}.get(known.kind, found_on(_CURVES.get(known.kind, known.kind)))
     valid = tuple(v for v in valid if labels is None or v in labels)
     match = _LABEL.fullmatch(label)
     if match is None or match[1] not in valid:
@@ -82,11 +86,15 @@ def refer(
     return Reference(name, label)
 
 
-def curve(table: Table, key: str, context: Context) -> str:
-    """Read the name of a curve of equilibria."""
-    name = table.text(key)
-    known_result(table, key, name, ("branch",), context)
-    return name
+def curve(*kinds: str) -> Reader:
+    """Return a reader of the name of one curve."""
+
+    def reader(table: Table, key: str, context: Context) -> str:
+        name = table.text(key)
+        known_result(table, key, name, kinds, context)
+        return name
+
+    return reader
 
 
 def curves(*kinds: str) -> Reader:

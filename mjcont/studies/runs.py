@@ -73,12 +73,20 @@ def task_line(mechanism: Any, plan: Task) -> str:
     g, unit_of = plan.given, units(mechanism)
 
     def span(name: str, ends: tuple[float, float]) -> str:
-        return f"{name} from {show(ends[0], unit_of[name], 6)} to {show(ends[1], unit_of[name], 6)}"
+        unit = unit_of.get(name, "Hz" if name == "frequency" else unit_of.get(name.removesuffix(".amplitude"), ""))
+        return f"{name} from {show(ends[0], unit, 6)} to {show(ends[1], unit, 6)}"
 
-    of = str(g["point"]) if "point" in g else str(g["branch"]) if "branch" in g else ""
+    def orbits() -> str:
+        parts = [f"from {of}"] if of else []
+        parts += [span(g["parameter"], g["bounds"])] if g["parameter"] and g["bounds"] else []
+        return ", ".join([*parts, *(f"{n} moving" for n in g.get("forcing") or ())])
+
+    of = str(g["point"] or "") if "point" in g else str(g["branch"]) if "branch" in g else ""
     details: dict[str, Callable[[], str]] = {
         "search": lambda: ", ".join(span(n, b) if n in unit_of else n for n, b in g["region"].items()) or "everywhere",
         "diagram": lambda: span(g["parameter"], g["bounds"]),
+        "cycles": orbits,
+        "response": orbits,
         "locus": lambda: f"{of}, {span(g['parameter'], g['bounds'])}",
         "path": lambda: g["parameter"] + " " + " -> ".join(show(v, unit_of[g["parameter"]], 6) for v in g["values"])
         if g["parameter"] else f"{len(g['loads'])} loads",
@@ -131,13 +139,39 @@ def _diagram(plan: Task, at: Running) -> Outcome:
 
 
 def _locus(plan: Task, at: Running) -> Outcome:
-    from mjcont.curves.loci import continue_special
+    from mjcont.oscillation.loci import continue_special
 
     g = plan.given
     found = continue_special(
         point_of(at.done, g["point"]), g["parameter"], g["bounds"], direction=g["direction"], zeros=g["zeros"],
         progress=at.reporter.point, **g["settings"],
     )
+    return found, store_curve(found, plan.name, g["csv"], at.folder)
+
+
+def _cycles(plan: Task, at: Running) -> Outcome:
+    from mjcont.oscillation.cycles import continue_cycles
+
+    g = plan.given
+    common = {"direction": g["direction"], "progress": at.reporter.point, **g["settings"]}
+    if g["point"] is not None:
+        found = continue_cycles(point_of(at.done, g["point"]), g["parameter"], g["bounds"], **common)
+    else:
+        pose = {key: g[key] for key in ("start", "keyframe", "state")}
+        found = continue_cycles(at.mechanism, g["parameter"], g["bounds"], **pose, **common)
+    return found, store_curve(found, plan.name, g["csv"], at.folder)
+
+
+def _response(plan: Task, at: Running) -> Outcome:
+    from mjcont.oscillation.responses import continue_response
+
+    g = plan.given
+    common = {"direction": g["direction"], "progress": at.reporter.point, **g["settings"]}
+    if g["point"] is not None:
+        found = continue_response(point_of(at.done, g["point"]), g["parameter"], g["bounds"], **common)
+    else:
+        rest = {key: g[key] for key in ("forcing", "start", "frequency", "keyframe", "state")}
+        found = continue_response(at.mechanism, g["parameter"], g["bounds"], **rest, **common)
     return found, store_curve(found, plan.name, g["csv"], at.folder)
 
 
@@ -229,8 +263,9 @@ def _barrier(plan: Task, at: Running) -> Outcome:
 
 
 _RUNS: Mapping[str, Callable[[Task, Running], Outcome]] = {
-    "search": _search, "diagram": _diagram, "locus": _locus, "path": _path, "history": _history,
-    "sensitivity": _sensitivity, "worst case": _worst, "map": _map, "certificate": _certificate, "barrier": _barrier,
+    "search": _search, "diagram": _diagram, "cycles": _cycles, "response": _response, "locus": _locus, "path": _path,
+    "history": _history, "sensitivity": _sensitivity, "worst case": _worst, "map": _map, "certificate": _certificate,
+    "barrier": _barrier,
 }
 
 

@@ -29,6 +29,7 @@ UNITS: dict[str, tuple[str, float]] = {
     "g": ("kg", 1e-3),
     "t": ("kg", 1e3),
     "s": ("s", 1.0),
+    "Hz": ("Hz", 1.0),
     "ms": ("s", 1e-3),
     "N": ("N", 1.0),
     "kN": ("N", 1e3),

@@ -110,6 +110,9 @@ def _compute(study: Study, plan: BranchPlan | Task, at: Running) -> tuple[Any, l
 def _watched(study: Study, plan: Task) -> list[tuple[str, str]]:
     """Return the columns that points are shown with while a table other than a branch is computed."""
     unit_of, observables = units(study.mechanism), study.mechanism.observables
+    if plan.kind in ("cycles", "response"):  # observables of an orbit are no numbers while it is followed
+        name = plan.given["parameter"] or plan.given["point"].result
+        return [(name, "Hz" if name == "frequency" else unit_of.get(name, ""))] if plan.given["parameter"] else []
     plotted = [c for p in study.plots if plan.name in p.branches for c in (p.x, p.y)]
     varying = [plan.given["parameter"]] if plan.kind in ("diagram", "locus") else []
     wanted = dict.fromkeys([*varying, *(c for c in plotted if c in observables), *observables])

@@ -11,17 +11,19 @@ from mjcont.motion.loadpaths import LANDINGS
 from mjcont.motion.stepping import INTEGRATORS
 from mjcont.numerics.points import kinds
 from mjcont.numerics.points.kinds import CONTINUABLE
+from mjcont.oscillation.loci import FOLLOWED
 from mjcont.results.model import check_bounds, units
 from mjcont.results.points import show
 from mjcont.results.quantities import column_of
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
 from mjcont.studies.keys import Context, Key, Kind
+from mjcont.studies.orbits import CYCLES, ORBITS, RESPONSES, check_plotted, default_curves, plotted
 from mjcont.studies.schema import Table
 from mjcont.studies.waveforms import read_input
 
 PLOT_SUFFIXES = (".png", ".pdf", ".svg")
-CURVES = ("branch", "locus", "diagram", "path")
+CURVES = ("branch", "locus", "diagram", "path", *ORBITS)
 SPECIAL = ("branch", "locus")
 _POSED = ("start", "keyframe", "state")
 _LOCATED = (*CONTINUABLE, "UZ")
@@ -181,9 +183,11 @@ def _plot_file(table: Table, key: str, context: Context) -> str:
 def _check_plot(found: dict[str, Any], table: Table, context: Context) -> None:
     if not found["branches"]:
         plain = tuple(n for n, known in context.known.items() if known.kind in ("branch", "diagram"))
+        plain = default_curves(found, context, plain)
         found["branches"] = plain or tuple(n for n, known in context.known.items() if known.kind in CURVES)
     if not found["branches"]:
         raise table.error("branches", "the study computes no branch, locus, diagram or path to draw")
+    check_plotted(found, table, context)
 
 
 _NAME = Key(k.result_name, "Names its files, and the result elsewhere in the study. Letters, digits, `-`, `_`, `.`.",
@@ -210,7 +214,7 @@ _SETTINGS = Key(k.settings, "Fields of `mjcont.Settings`: `ds`, `ds_max`, `angle
 _POINT = Key(r.reference(*SPECIAL, labels=_LOCATED),
              "The special point, such as `\"equilibria:LP1\"`, or `\"D_1:LP1\"` on the first branch of a diagram `D`.",
              needed=True)
-_BRANCH = Key(r.curve, "The branch; the first of a diagram `D` is `D_1`.", needed=True)
+_BRANCH = Key(r.curve("branch"), "The branch; the first of a diagram `D` is `D_1`.", needed=True)
 
 
 def _csv(text: str, default: bool) -> Key:
@@ -253,7 +257,7 @@ DIAGRAM = Kind("diagrams", "Every branch that the starts reach through branch po
 
 LOCUS = Kind("loci", "A special point followed in one more parameter (`continue_special`).", {
     "name": _NAME,
-    "point": Key(r.reference(*SPECIAL, labels=CONTINUABLE), _POINT.text, needed=True),
+    "point": Key(r.reference(*SPECIAL, *ORBITS, labels=(*CONTINUABLE, *FOLLOWED)), _POINT.text, needed=True),
     "parameter": Key(k.parameter, "The parameter that is freed.", needed=True),
     "bounds": _BOUNDS, "direction": _DIRECTION, "zeros": _ZEROS,
     "csv": _csv("a row a point", False), "settings": _SETTINGS,
@@ -323,7 +327,9 @@ MAP = Kind("maps", "A special point over a grid of one or two parameters (`speci
 
 CERTIFICATE = Kind("certificates", "Stability held against simulations beside points of a branch (`verify_stability`). "
                                    "NAME.h5 is the branch with its certificate.", {
-    "name": _NAME, "branch": _BRANCH,
+    "name": _NAME,
+    "branch": Key(r.curve("branch", *ORBITS), "The branch, or a curve of orbits; the first of a diagram `D` is `D_1`.",
+                  needed=True),
     "n": Key(k.whole(1), "Number of points.", 20),
     "amplitude": Key(k.positive("1"), "Of the disturbance.", 1e-7),
     "tolerance": Key(k.positive("1"), "Relative difference of rate and eigenvalue that confirms.", 0.05),
@@ -340,10 +346,11 @@ BARRIER = Kind("barriers", "The energy that dislodges a rest, along a branch (`b
 
 PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
     "file": Key(_plot_file, "File name ending in `.png`, `.pdf` or `.svg`, without a folder.", needed=True),
-    "x": Key(k.column, "Column: a parameter or an observable.", needed=True),
-    "y": Key(k.column, "The same.", needed=True),
-    "branches": Key(r.curves(*CURVES), "Names of branches, diagrams, loci and paths.",
-                    otherwise="all branches and diagrams; if there are none, all loci and paths"),
+    "x": Key(plotted, "Column: a parameter or an observable; of orbits also `period`, `frequency`, `NAME.max`, `.min`, "
+                      "`.amplitude`, `.mean`, `.rms`, of responses `.h1`, `.phase`.", needed=True),
+    "y": Key(plotted, "The same. An observable of orbits is drawn by its largest and smallest value.", needed=True),
+    "branches": Key(r.curves(*CURVES), "Names of branches, diagrams, cycles, responses, loci and paths.",
+                    otherwise="all but loci and paths; if there are none, these"),
     "title": Key(k.text, "A string.", ""),
     "labels": Key(k.flag, "`false` leaves out the labels of special points.", True),
     "degrees": Key(k.flag, "`false` draws angles in radians.", True),
@@ -351,8 +358,9 @@ PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
 
 # by kind of result, in the order in which they are computed
 KINDS = {
-    "search": SEARCH, "branch": BRANCH, "diagram": DIAGRAM, "locus": LOCUS, "path": PATH, "history": HISTORY,
-    "sensitivity": SENSITIVITY, "worst case": WORST, "map": MAP, "certificate": CERTIFICATE, "barrier": BARRIER,
+    "search": SEARCH, "branch": BRANCH, "diagram": DIAGRAM, "cycles": CYCLES, "response": RESPONSES, "locus": LOCUS,
+    "path": PATH, "history": HISTORY, "sensitivity": SENSITIVITY, "worst case": WORST, "map": MAP,
+    "certificate": CERTIFICATE, "barrier": BARRIER,
 }
 
 
@@ -361,7 +369,7 @@ def known(kind: str, found: Mapping[str, Any], data: Mapping[str, Any], context:
     name = data.get("parameter")
     free = (name,) if isinstance(name, str) else ()
     point = found.get("point")
-    if kind == "locus" and point is not None:
+    if point is not None and (kind == "locus" or (kind in ORBITS and not free)):
         try:
             free = (*_free_at(point, context), *free)
         except (MjcontError, KeyError):

@@ -25,8 +25,8 @@ from mjcont.errors import MjcontError, ParameterError
 from mjcont.influence.critical import follow_point
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.results.branch import Branch
+from mjcont.results.model import provenance
 from mjcont.results.points import Mark, SpecialPoint
-from mjcont.results.provenance import provenance
 
 METHODS = ("follow", "trace")
 NOMINAL = -1

@@ -19,9 +19,8 @@ from mjcont.numerics.search.spanning import heights, spanning_tree
 from mjcont.outside.saving import output_folder
 from mjcont.outside.sealing import digest
 from mjcont.results.files import frozen
-from mjcont.results.model import units
+from mjcont.results.model import provenance, units
 from mjcont.results.points import Column, SpecialPoint
-from mjcont.results.provenance import provenance
 from mjcont.results.sweeps import SweepTable
 from mjcont.sweeps.cluster import make_crew
 from mjcont.sweeps.designs import Spread, Vary, describe_design, make_design, scales

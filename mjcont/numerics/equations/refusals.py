@@ -20,6 +20,7 @@ class Why(Enum):
     CROWDED = auto()  # a step needs too many points inside
     TURNS_TWICE = auto()  # a parameter may turn, or leave its bounds, and come back within the step
     OTHER_BRANCH = auto()  # the orientation changes without a branch point
+    CROWDED_POINTS = auto()  # several special points lie in one step, or one that is seen is not found
     POLE = auto()  # a test changes sign by growing beyond bounds: there is no zero
 
 

@@ -86,6 +86,11 @@ class Local:
         return self._jac
 
     @property
+    def linearization(self) -> Linearization:
+        """What the problem returned for it."""
+        return self._linearize()
+
+    @property
     def raw_jac(self) -> Any:
         """df/dx in physical units, (n, n)."""
         return self._linearize().jac

@@ -21,7 +21,7 @@ class Kind:
     code, name : such as "LP" and "fold".
     marker : shape and size with which it is drawn, None where any other will do; shapes differ, so that a diagram can
         be read in greyscale.
-    on : "branch", "locus" or both: the curves on which it is found.
+    on : "branch", "locus" or both, "cycles" or "cycle locus": the curves on which it is found.
     codimension : number of parameters that its defining system solves for; 0 where it has none of its own.
     crosses : whether eigenvalues pass the axis there.
     holds : by its definition, how many eigenvalues it holds at zero, and how many pairs on the axis.
@@ -82,6 +82,7 @@ def _zero_hopf(local: Local, system: System, square: float) -> Sequence[Conditio
     return [*_fold(local, system, square), *_hopf(local, system, square)]
 
 
+_CYCLES, _ON_CYCLES = ("cycles",), ("cycle locus",)
 _BRANCH, _LOCUS, _BOTH = ("branch",), ("locus",), ("branch", "locus")
 KINDS = {
     k.code: k
@@ -99,6 +100,20 @@ KINDS = {
         Kind(
             "HH", "double Hopf point", ("X", 6.5), _LOCUS, holds=(0, 2),
             coefficients=("omega", "omega2", "theta", "delta"),
+        ),
+        Kind("LPC", "fold of cycles", ("h", 6.5), _CYCLES),
+        Kind("PD", "period doubling", ("d", 5.5), _CYCLES, coefficients=("type",)),
+        Kind("NS", "Neimark-Sacker point", ("p", 7.0), _CYCLES, coefficients=("type", "theta", "rotation")),
+        Kind("BPC", "branch point of cycles", ("8", 6.0), _CYCLES),
+        *(
+            Kind(code, name, (marker, 6.5), _ON_CYCLES)
+            for code, name, marker in (
+                ("CPC", "cusp of cycles", "*"), ("GPD", "generalised period doubling", "v"),
+                ("CH", "Chenciner point", "^"), ("R1", "1:1 resonance", "1"), ("R2", "1:2 resonance", "2"),
+                ("R3", "1:3 resonance", "3"), ("R4", "1:4 resonance", "4"), ("LPPD", "fold-flip", "<"),
+                ("LPNS", "fold-Neimark-Sacker point", ">"), ("PDNS", "flip-Neimark-Sacker point", "P"),
+                ("NSNS", "double Neimark-Sacker point", "X"),
+            )
         ),
         Kind("UZ", "user zero", ("x", 5.5), _BOTH),
         Kind("CO", "corner", None, _BOTH),

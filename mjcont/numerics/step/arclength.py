@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 from scipy.optimize import brentq
 
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, oriented
@@ -246,7 +245,7 @@ def advance(
     x, y = system.move(point.x, point.y, prediction)
     local = system.local(x, y)
     fresh = fresh and not _beyond_a_kink(system, point, local)
-    extrapolated = not (fresh or system.conditions or sparse.issparse(point.jac))
+    extrapolated = not (fresh or system.conditions)
     expected = _TRUST * point.rate if extrapolated and len(point.past) == _PAST else math.inf
     lu = None if fresh else Factored(with_row(_matrix_ahead(point, h) if extrapolated else point.jac, point.tangent))
     c = correct(system, x, y, point.tangent, lu, settings, expected, _WANDER * abs(h), local)
@@ -319,7 +318,7 @@ def land(
     prediction = system.admissible(point.x, predict(point, h, steady=steady))
     x, y = system.move(point.x, point.y, prediction)
     y[index] = target
-    extrapolated = not (fresh or system.conditions or sparse.issparse(point.jac))
+    extrapolated = not (fresh or system.conditions)
     lu = Factored(with_row(_matrix_ahead(point, h), row)) if extrapolated else None
     c = correct(system, x, y, row, lu, settings)
     if c.failure is not None:

@@ -11,6 +11,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from scipy import sparse
 
 from mjcont.numerics.equations.problem import Array
 
@@ -107,7 +108,9 @@ def arc(chord: float, cosine: float) -> float:
 
 
 def combine(weights: Sequence[float], parts: Sequence[Array]) -> Array:
-    """Return sum_i weights[i] * parts[i]."""
+    """Return sum_i weights[i] * parts[i], for arrays or sparse matrices."""
+    if sparse.issparse(parts[0]):
+        return sum(w * part for w, part in zip(weights[1:], parts[1:], strict=True)) + weights[0] * parts[0]
     stack = np.array(parts)
     found: Array = (np.array(weights) @ stack.reshape(len(parts), -1)).reshape(stack.shape[1:])
     return found

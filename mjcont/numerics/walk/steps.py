@@ -24,6 +24,10 @@ class Status(Enum):
     STOPPED = "stopped"
     AT_SPECIAL_POINT = "at special point"
     INTERRUPTED = "interrupted"
+    AT_REST = "rest"
+    PERIOD = "period"
+    MESH = "mesh"
+    CORNER = "corner"
     NO_START = "no start"
     FAILED = "failed"
 

@@ -1,0 +1,204 @@
+"""Modes that turn or decay too fast for an orbit's mesh: their multipliers from the derivatives along the orbit.
+
+Where |lambda| h exceeds about 3 collocation tells nothing of a mode: Gauss puts it on the unit circle, Radau IIA at
+zero. But the derivatives J(t) of the rates are smooth along the orbit, which is slow, and known at its points. As long
+as there are not too many turns the deviations are integrated by steps of their own, s(t + h) = exp(Omega) s(t), with
+Magnus's series for J at Gauss's three points of the step,
+
+    Omega = a_1 + a_3 / 12 + [-20 a_1 - a_3 + c_1, a_2 + c_2] / 240,
+    c_1 = [a_1, a_2],   c_2 = -[a_1, 2 a_3 + c_1] / 60,
+    a_1 = h J_2,   a_2 = sqrt(15) h (J_3 - J_1) / 3,   a_3 = 10 h (J_3 - 2 J_2 + J_1) / 3,
+
+which is of sixth order in how J changes and exact where it does not (Blanes, Casas and Ros, Improved high order
+integrators based on the Magnus expansion, BIT 40, 2000). Modes with more turns than that follow their eigenvalue,
+
+    mu = exp(integral of lambda(t) over a period),
+
+and count as not resolved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import eig
+
+from mjcont.numerics.equations.algebra import eigenvalues as eigenvalues_of
+from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.orbits.collocation import Blocks, Orbits
+from mjcont.numerics.orbits.scheme import GAUSS, RADAU
+
+# |lambda| h from which on a scheme of degree 5 errs by 1e-6 in a period, and the part of it that is to be exceeded all
+# along the orbit; factor between the sizes of fast and slow modes
+_FAST = {RADAU: 1.0, GAUSS: 3.0}
+_EVERYWHERE, _GAP = 0.3, 1.3
+# |lambda| h of a step of its own, and how many of these are taken in all
+_STEP, _MOST = 1.0, 3000
+_ROOT = np.sqrt(15.0)
+
+
+@dataclass(frozen=True, slots=True)
+class FastModes:
+    """The fast modes of an orbit.
+
+    Attributes
+    ----------
+    count : how many.
+    space : (d, count) an orthonormal basis of theirs at the beginning, over scaled states.
+    scale : (d,) the states' sizes.
+    steps : (k, d, d) what takes deviations over short steps, one after the other; None where they would be too many.
+    adiabatic : (count,) multipliers from eigenvalues.
+    """
+
+    count: int
+    space: Array
+    scale: Array
+    steps: Array | None
+    adiabatic: Array
+
+    def _shares(self, vectors: Array) -> Array:
+        scaled = vectors / self.scale[:, None]
+        found: Array = np.linalg.norm(self.space.T @ scaled, axis=0) / np.linalg.norm(scaled, axis=0)
+        return found
+
+    def least(self, vectors: Array, count: int) -> Array:
+        """Return the indices of the `count` vectors (d, n) that lie least in the fast space."""
+        return np.sort(np.argsort(self._shares(vectors), kind="stable")[:count])
+
+    def most(self, vectors: Array, count: int) -> Array:
+        """Return the indices of the `count` vectors (d, n) that lie most in the fast space."""
+        return np.sort(np.argsort(-self._shares(vectors), kind="stable")[:count])
+
+
+def fast_modes(orbits: Orbits, blocks: Blocks, period: float) -> FastModes | None:
+    """Return the modes that are too fast for an orbit's mesh, None where there are none."""
+    lengths = period * orbits.lengths
+    bound = _FAST[orbits.scheme.name]
+    if _bound(blocks.jac, orbits.flow.c) * float(lengths.max()) < bound:
+        return None
+    matrices = first_order_each(blocks.jac)
+    rates = eigenvalues_of(matrices)
+    if not np.isfinite(rates).all():
+        return None
+    rates = np.take_along_axis(rates, np.argsort(-np.abs(rates), axis=1, kind="stable"), axis=1)
+    sizes = np.abs(rates).reshape(orbits.intervals, orbits.m, -1)
+    turns = float((lengths * sizes[:, :, 0].max(axis=1)).sum())
+    d, unresolved = orbits.flow.d, int((sizes * lengths[:, None, None] > bound).any(axis=(0, 1)).sum())
+    if not unresolved:
+        return None
+    few = turns / _STEP <= _MOST
+    count = _count(sizes.reshape(-1, d), unresolved, few, bound / float(lengths.min()))
+    if not count:
+        return None
+    steps = _magnus(orbits, matrices, lengths, sizes[:, :, 0].max(axis=1)) if few else None
+    return FastModes(count, _space(matrices[0], count, orbits.sizes), orbits.sizes, steps,
+                     _adiabatic(orbits, rates[:, :count], period))
+
+
+def _count(sizes: Array, unresolved: int, few: bool, bound: float) -> int:
+    """Return how many modes are told apart as fast, given their sizes along the orbit (k, d), the largest first.
+
+    None are where a mode is fast here and slow there: the orbit itself is as fast then, and its mesh made for it.
+    """
+    d, least, most = sizes.shape[1], sizes.min(axis=0), sizes.max(axis=0)
+    apart = [k for k in range(1, d + 1) if k == d or least[k - 1] > _GAP * most[k]]
+    if few:
+        return next(k for k in apart if k >= unresolved) if least[unresolved - 1] > _EVERYWHERE * bound else 0
+    return max((k for k in apart if least[k - 1] > bound), default=0)
+
+
+def _bound(jac: Array, c: int) -> float:
+    """Return a bound of the eigenvalues along an orbit from the derivatives of its rates (N, m, c, d)."""
+    if jac.shape[3] == c:
+        return float(np.abs(jac).sum(axis=3).max())
+    return float(np.abs(jac[..., :c]).sum(axis=3).max()) ** 0.5 + float(np.abs(jac[..., c:]).sum(axis=3).max())
+
+
+def first_order_each(jac: Array) -> Array:
+    """Return the matrices of the first-order form at all points, (N m, d, d)."""
+    c, d = jac.shape[2:]
+    matrices = jac.reshape(-1, c, d)
+    if d == c:
+        return matrices
+    upper = np.zeros((len(matrices), c, d))
+    upper[:, :, c:] = np.eye(c)
+    return np.concatenate([upper, matrices], axis=1)
+
+
+def _magnus(orbits: Orbits, matrices: Array, lengths: Array, fastest: Array) -> Array:
+    """Return what takes deviations over short steps, (k, d, d); intervals have lengths and largest |lambda| (N,)."""
+    d, nodes = orbits.flow.d, orbits.scheme.c
+    known = matrices.reshape(orbits.intervals, orbits.m, d, d)
+    if nodes[-1] == 1.0:  # the end of the interval before is the beginning of this one
+        nodes = np.append(0.0, nodes)
+        known = np.concatenate([np.roll(known[:, -1:], 1, axis=0), known], axis=1)
+    found = []
+    offsets = (-0.1 * _ROOT, 0.0, 0.1 * _ROOT)
+    for i, count in enumerate(np.ceil(lengths * fastest / _STEP).astype(int).tolist()):
+        h, middles = lengths[i] / count, (np.arange(count) + 0.5) / count
+        before, here, after = (
+            np.einsum("kj,jab->kab", _lagrange(nodes, middles + side / count), known[i]) for side in offsets
+        )
+        found.append(_series(h, before, here, after))
+    return exponentials(np.concatenate(found))
+
+
+def _series(h: float, before: Array, here: Array, after: Array) -> Array:
+    """Return Omega of steps h, given J at Gauss's points of each (k, d, d)."""
+    one, two, three = h * here, _ROOT / 3.0 * h * (after - before), 10.0 / 3.0 * h * (after - 2.0 * here + before)
+    first = _commutator(one, two)
+    second = -_commutator(one, 2.0 * three + first) / 60.0
+    found: Array = one + three / 12.0 + _commutator(-20.0 * one - three + first, two + second) / 240.0
+    return found
+
+
+def _commutator(a: Array, b: Array) -> Array:
+    found: Array = a @ b - b @ a
+    return found
+
+
+def _lagrange(nodes: Array, places: Array) -> Array:
+    """Return the values of Lagrange's polynomials of nodes (m,) at places (k,), (k, m)."""
+    apart = nodes[:, None] - nodes
+    np.fill_diagonal(apart, 1.0)
+    parts = (places[:, None, None] - nodes) / apart
+    at = np.arange(len(nodes))
+    parts[:, at, at] = 1.0
+    found: Array = parts.prod(axis=2)
+    return found
+
+
+def exponentials(matrices: Array) -> Array:
+    """Return the exponentials of matrices (k, d, d), by the Pade approximant of degree 6 of halves of them, squared."""
+    norms = np.abs(matrices).sum(axis=1).max(axis=1)
+    halvings = max(int(np.ceil(np.log2(max(float(norms.max()), 1e-300) / 0.5))), 0)
+    a, eye = matrices / 2.0**halvings, np.eye(matrices.shape[1])
+    even, odd, power, weight = np.zeros_like(a), np.zeros_like(a), np.broadcast_to(eye, a.shape), 1.0
+    for k in range(7):
+        if k:
+            power, weight = power @ a, weight * (7 - k) / (k * (13 - k))
+        if k % 2:
+            odd = odd + weight * power
+        else:
+            even = even + weight * power
+    found: Array = np.linalg.solve(even - odd, even + odd)
+    for _ in range(halvings):
+        found = found @ found
+    return found
+
+
+def _adiabatic(orbits: Orbits, rates: Array, period: float) -> Array:
+    """Return exp of the integrals of the fast eigenvalues (N m, k), followed along the orbit."""
+    weights = (orbits.lengths[:, None] * orbits.scheme.b).ravel()
+    by_size = np.take_along_axis(rates, np.lexsort((rates.imag, np.abs(rates))), axis=1)
+    found: Array = np.exp(period * (weights @ by_size))
+    return found
+
+
+def _space(matrix: Array, count: int, scale: Array) -> Array:
+    """Return an orthonormal basis of the space of the `count` fastest modes of a matrix (d, d), over scaled states."""
+    values, vectors = eig(matrix / scale[:, None] * scale)
+    chosen = vectors[:, np.argsort(-np.abs(values), kind="stable")[:count]]
+    found: Array = np.linalg.svd(np.hstack([chosen.real, chosen.imag]), full_matrices=False)[0][:, :count]
+    return found

@@ -1,0 +1,77 @@
+"""Where an orbit lingers as its period grows without bound: the equilibrium of a homoclinic orbit, or none any more.
+
+Near a homoclinic orbit the period grows like -log|p - p0| / lambda at an equilibrium with eigenvalues on both sides;
+near a saddle-node on the cycle like |p - p0|^(-1/2), at a place where the equilibria are just gone.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mjcont.numerics.equations.algebra import solve
+from mjcont.numerics.equations.problem import Array, Values
+from mjcont.numerics.orbits.collocation import Orbits
+from mjcont.numerics.orbits.flow import Flow
+from mjcont.numerics.orbits.path import Path
+
+_STEPS, _SETTLED = 30, 1e-10
+# an equilibrium farther from the orbit's slowest place than this part of its extent is another one
+_NEAR = 0.1
+# eigenvalues nearer to the axis than this part of the orbit's frequency are critical: the orbit is small, not zero
+_CRITICAL = 0.03
+
+
+def lingering(flow: Flow, path: Path, values: Values, sizes: Array) -> str:
+    """Return a clause on where an orbit is slowest: at which equilibrium, with its eigenvalues."""
+    speed = np.linalg.norm(path.slopes(path.mesh) / sizes, axis=1)
+    slowest = path.s[int(np.argmin(speed))]
+    found = _equilibrium(flow, slowest, values)
+    if found is None or np.abs((found - slowest) / np.maximum(np.ptp(path.s, axis=0), sizes)).max() > _NEAR:
+        return f"it lingers near ({_shown(slowest)}), where there is no equilibrium any more"
+    eigenvalues = np.linalg.eigvals(first_order(flow, found, values))
+    eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
+    rates = ", ".join(f"{v.real:.4g}" if v.imag == 0.0 else f"{v.real:.4g}{v.imag:+.4g}i" for v in eigenvalues)
+    return f"it lingers at the equilibrium ({_shown(found)}) with eigenvalues {rates} 1/s"
+
+
+def shrunk_to(orbits: Orbits, path: Path, values: Values, on_locus: bool) -> str:
+    """Return the sentence on a curve whose orbits shrink to a point: what that is, told by its eigenvalues."""
+    mean = path.lengths @ (0.5 * (path.s[1:] + path.s[:-1]))
+    found = _equilibrium(orbits.flow, mean, values)
+    if found is None:
+        return "the orbit shrinks to a point"
+    omega = 2.0 * np.pi / path.period
+    eigenvalues = np.linalg.eigvals(first_order(orbits.flow, found, values))
+    critical = eigenvalues[np.abs(eigenvalues.real) < _CRITICAL * omega]
+    zero = bool((np.abs(critical) < _CRITICAL * omega).any())
+    pairs = int(np.count_nonzero(critical.imag > _CRITICAL * omega))
+    other = "zero-Hopf point (ZH)" if zero else "double Hopf point (HH)" if pairs > 1 else ""
+    return f"the orbit shrinks to a {other or ('generalised Hopf point (GH)' if on_locus else 'Hopf point (HB)')}"
+
+
+def first_order(flow: Flow, state: Array, values: Values) -> Array:
+    """Return the matrix of the first-order form at a state (d,), (d, d)."""
+    jac = flow.derivatives(state[None], np.zeros(1), values, (), False).jac[0]
+    if flow.order == 1:
+        return jac
+    upper = np.hstack([np.zeros((flow.c, flow.c)), np.eye(flow.c)])
+    return np.vstack([upper, jac])
+
+
+def _equilibrium(flow: Flow, state: Array, values: Values) -> Array | None:
+    """Return the equilibrium (d,) that Newton's method finds from a state."""
+    x = state.copy()
+    x[flow.c :] = 0.0
+    for _ in range(_STEPS):
+        rates = flow.derivatives(x[None], np.zeros(1), values, (), False)
+        step = -solve(rates.jac[0][:, : flow.c], rates.value[0])
+        if not np.isfinite(step).all():
+            return None
+        x[: flow.c] += step
+        if np.abs(step / flow.scale[: flow.c]).max() < _SETTLED:
+            return x
+    return None
+
+
+def _shown(state: Array) -> str:
+    return ", ".join(f"{v:.4g}" for v in state)

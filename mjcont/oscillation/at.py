@@ -1,0 +1,58 @@
+"""The orbits of a curve at a value of its free parameter, corrected to it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from mjcont.errors import MjcontError
+from mjcont.numerics.orbits.follow import MeshSettings, orbit_near
+from mjcont.numerics.orbits.path import Path
+from mjcont.oscillation.collect import make_orbit, verdict
+from mjcont.oscillation.flows import ModelFlow
+from mjcont.oscillation.walks import flow_for
+from mjcont.results.orbits import CycleBranch, Orbit, OrbitPoint, point_of
+
+
+@np.errstate(all="ignore")
+def orbits_at_value(branch: CycleBranch, name: str, value: float) -> list[OrbitPoint]:
+    """Return the orbits of a curve at which its free parameter has a value.
+
+    Raises
+    ------
+    MjcontError
+        If `name` is not the curve's free parameter.
+    """
+    if name not in branch.free:
+        raise MjcontError(f"at() of a curve of orbits takes a free parameter: {', '.join(branch.free)}; got '{name}'")
+    flow = flow_for(branch.model, branch.forcing)
+    column, found = branch[name] - value, []
+    for i in range(len(branch) - 1):
+        a, b = float(column[i]), float(column[i + 1])
+        if a == 0.0 or a * b < 0.0:
+            between = _between(branch.orbits[i], branch.orbits[i + 1], a / (a - b) if a else 0.0)
+            point = settled(flow, between, {**branch.parameters_at(i), name: value}, branch.orbits[i].shift, branch)
+            found += [point] if point is not None else []
+    if len(branch) and column[-1] == 0.0:
+        found.append(branch.row(len(branch) - 1))
+    return found
+
+
+def _between(one: Orbit, other: Orbit, fraction: float) -> Path:
+    a, b = one.path, other.path.carried(one.path.mesh)
+    s, w = ((1.0 - fraction) * x + fraction * y for x, y in ((a.s, b.s), (a.w, b.w)))
+    return replace(a, s=s, w=w, period=(1.0 - fraction) * a.period + fraction * b.period)
+
+
+def settled(
+    flow: ModelFlow, path: Path, values: dict[str, float], shift: np.ndarray, branch: CycleBranch
+) -> OrbitPoint | None:
+    """Return the orbit near a path at parameter values, on a mesh that resolves it; None where there is none."""
+    tol, most = float(branch.settings["orbit_tol"]), int(branch.settings["mesh_max"])
+    point = orbit_near(flow, path, values, shift, MeshSettings(path.scheme, most=most, tol=tol))
+    if point is None:
+        return None
+    orbit = make_orbit(point)
+    word, count = verdict(orbit)
+    return point_of(orbit, flow.state(orbit.path.s[0]), word, count)
