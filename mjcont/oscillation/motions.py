@@ -29,6 +29,12 @@ _SHRUNK = 0.1
 # evaluations, and times that the motion is followed for twice as long
 _MOST, _DOUBLINGS = 300_000, 24
 _FINE, _FINEST = 1e-8, 1e-10
+# a motion that reaches so many times its first size diverges
+_AWAY = 1e6
+
+
+class _LostError(Exception):
+    """A motion that diverges, or takes too many steps."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,15 +124,21 @@ def moved(flow: ModelFlow, state: Array, values: dict[str, float], length: float
     StartError
         If it diverges.
     """
-    size = np.maximum(np.abs(state), flow.scale)
+    size, began = np.maximum(np.abs(state), flow.scale), flow.evaluations
 
     def field(t: float, u: Array) -> Array:
+        if not np.all(np.abs(u) < _AWAY * size.max()) or flow.evaluations - began > _MOST:
+            raise _LostError
         rates = flow.rates(u[None], np.zeros(1), values)[0]
         return rates if flow.order == 1 else np.concatenate([u[flow.c :], rates])
 
-    run = solve_ivp(field, (0.0, length), state, method="LSODA", dense_output=True, rtol=_FINE, atol=_FINEST * size)
+    lost = StartError("the motion from the start could not be followed: it diverges or has no value there")
+    try:
+        run = solve_ivp(field, (0.0, length), state, method="LSODA", dense_output=True, rtol=_FINE, atol=_FINEST * size)
+    except _LostError:
+        raise lost from None
     if not run.success or not np.isfinite(run.y).all():
-        raise StartError("the motion from the start could not be followed: it diverges or has no value there")
+        raise lost
     return Motion(run.t, run.sol, turns)
 
 

@@ -31,6 +31,7 @@ def test_the_wheel_shimmies_below_the_speed_at_which_it_begins(study):
     assert set(study.cycles.stability[: fold.index]) != set(study.cycles.stability[fold.index + 1 :])
 
 
+@pytest.mark.long
 def test_no_motion_stays_below_the_fold_and_a_large_one_does_above(shimmy, study):
     fold = study.cycles.point("LPC1")
     wheel = shimmy.nose_wheel()

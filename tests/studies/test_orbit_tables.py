@@ -120,3 +120,11 @@ def test_each_mistake_is_named_with_its_place(tmp_path, old, new, message):
     found, lines = check_study(study(tmp_path, STUDY.replace(old, new, 1)))
     assert found is None
     assert any(message in line for line in lines), lines
+
+
+@pytest.mark.parametrize(("label", "fits"), [("LPC1", True), ("PD1", True), ("LP1", False), ("BPC1", False)])
+def test_loci_follow_folds_doublings_and_tori_of_orbits(tmp_path, label, fits):
+    locus = f'\n[[loci]]\nname = "locus"\npoint = "flutter:{label}"\nparameter = "c"\nbounds = [0.05, 0.2]\n'
+    found, lines = check_study(study(tmp_path, STUDY + locus))
+    assert (found is not None) == fits
+    assert fits or f"loci[0].point: '{label}'" in lines[0]

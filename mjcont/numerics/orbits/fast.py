@@ -19,6 +19,7 @@ and count as not resolved.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -112,7 +113,8 @@ def _bound(jac: Array, c: int) -> float:
     """Return a bound of the eigenvalues along an orbit from the derivatives of its rates (N, m, c, d)."""
     if jac.shape[3] == c:
         return float(np.abs(jac).sum(axis=3).max())
-    return float(np.abs(jac[..., :c]).sum(axis=3).max()) ** 0.5 + float(np.abs(jac[..., c:]).sum(axis=3).max())
+    stiffness, damping = (float(np.abs(part).sum(axis=3).max()) for part in (jac[..., :c], jac[..., c:]))
+    return math.sqrt(stiffness) + damping
 
 
 def first_order_each(jac: Array) -> Array:

@@ -51,7 +51,7 @@ def shrunk_to(orbits: Orbits, path: Path, values: Values, on_locus: bool) -> str
 
 def first_order(flow: Flow, state: Array, values: Values) -> Array:
     """Return the matrix of the first-order form at a state (d,), (d, d)."""
-    jac = flow.derivatives(state[None], np.zeros(1), values, (), False).jac[0]
+    jac: Array = flow.derivatives(state[None], np.zeros(1), values, (), False).jac[0]
     if flow.order == 1:
         return jac
     upper = np.hstack([np.zeros((flow.c, flow.c)), np.eye(flow.c)])
