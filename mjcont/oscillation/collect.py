@@ -171,10 +171,9 @@ def _columns(flow: ModelFlow, orbits: Sequence[Orbit], system: System) -> dict[s
         for p in system.free
     }
     own = set(flow.model.parameters) | set(found)  # a model's parameter keeps its name
-    for name, unit, numbers in (("period", "s", [o.period for o in orbits]),
-                               ("frequency", "Hz", [o.frequency for o in orbits])):
+    for name, unit in (("period", "s"), ("frequency", "Hz")):
         if name not in own:
-            found[name] = Column(name, unit, "orbit", _frozen(numbers))
+            found[name] = Column(name, unit, "orbit", _frozen([getattr(o, name) for o in orbits]))
     read = [readings(o.path, o.reading, flow.forced) for o in orbits]
     for k, (name, o) in enumerate(flow.model.observables.items()):
         for what in read[0]:

@@ -71,10 +71,6 @@ def continue_cycles(
     **options
         `mesh`, `degree`, `scheme`, `tol`, `mesh_max`, `period_max`, and fields of `Settings` (ds, ds_max, ...).
 
-    Returns
-    -------
-    CycleBranch
-
     Raises
     ------
     MjcontError, NameLookupError, BoundsError, ParameterError, StartError

@@ -66,10 +66,6 @@ def continue_response(
     direction, stop, progress, **options
         As for `continue_cycles`.
 
-    Returns
-    -------
-    CycleBranch
-
     Raises
     ------
     MjcontError, NameLookupError, BoundsError, ParameterError, StartError

@@ -35,10 +35,12 @@ def folds():
     return mc.continue_special(fold, "q", (-0.1, 0.5))
 
 
+@pytest.mark.long
 def test_folds_of_orbits_lie_on_the_cuspidal_curve(folds):
     assert np.abs(27.0 * folds["p"] ** 2 - 4.0 * folds["q"] ** 3).max() < PLACE
 
 
+@pytest.mark.long
 def test_the_cusp_of_orbits_is_found(folds):
     assert kinds(folds) == ["CPC"]
     assert folds.point("CPC1")["p"] == pytest.approx(0.0, abs=PLACE)
@@ -47,11 +49,12 @@ def test_the_cusp_of_orbits_is_found(folds):
 
 def test_doublings_lie_on_the_parabola():
     doubling = special(fork_along_a_parabola, 2, 0.1, "PD", turn=0.5)
-    locus = mc.continue_special(doubling, "q", (-0.2, 0.2))
+    locus = mc.continue_special(doubling, "q", (-0.2, 0.2), ds_max=0.2)
     assert np.abs(locus["p"] - locus["q"] ** 2).max() < PLACE
     assert kinds(locus) == []
 
 
+@pytest.mark.long
 def test_a_doubling_changes_side_where_it_must():
     doubling = special(fork_that_changes_side, 2, -0.1, "PD", turn=0.5)
     locus = mc.continue_special(doubling, "q", (-0.2, 0.2))
@@ -60,6 +63,7 @@ def test_a_doubling_changes_side_where_it_must():
     assert locus.point("GPD1")["q"] == pytest.approx(0.0, abs=PLACE)
 
 
+@pytest.mark.long
 def test_tori_lie_on_the_parabola_with_their_strong_resonances():
     torus = special(ring_that_turns_faster, 2, 0.1, "NS")
     locus = mc.continue_special(torus, "q", (-0.15, 0.25))
@@ -69,6 +73,7 @@ def test_tori_lie_on_the_parabola_with_their_strong_resonances():
     assert found == pytest.approx([0.25 - 0.2, 1.0 / 3.0 - 0.2], abs=PLACE)
 
 
+@pytest.mark.long
 def test_a_torus_changes_side_where_it_must():
     torus = special(ring_that_changes_side, 2, -0.1, "NS")
     locus = mc.continue_special(torus, "q", (-0.2, 0.2))
@@ -77,6 +82,7 @@ def test_a_torus_changes_side_where_it_must():
     assert locus.point("CH1")["q"] == pytest.approx(0.0, abs=PLACE)
 
 
+@pytest.mark.long
 def test_folds_of_cycles_of_the_bautin_form_end_at_its_generalised_hopf_point():
     cycles = mc.continue_cycles(mc.continue_equilibria(bautin(), "b1", (-0.5, 0.5)).point("HB1"))
     locus = mc.continue_special(cycles.point("LPC1"), "b2", (-1.0, 1.5))

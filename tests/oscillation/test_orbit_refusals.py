@@ -29,6 +29,7 @@ def swung(mechanism, bounds=(0.05, 0.6), amplitude=0.05):
     return mc.continue_response(mechanism, "torque.amplitude", bounds, forcing, frequency=0.16, direction=1)
 
 
+@pytest.mark.long
 def test_a_response_ends_where_it_touches_a_stop():
     response = swung(pendulum('range="-30 30" limited="true"'))
     assert response.status == "corner"

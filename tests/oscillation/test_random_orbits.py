@@ -12,7 +12,7 @@ import mjcont as mc
 
 
 def circle(seed):
-    """Return the field of r' = r (p - r^2), angle' = omega + a r^2, with one to three modes that decay, and omega, a."""
+    """Return the field of r' = r (p - r^2), angle' = omega + a r^2, one to three modes that decay, and its numbers."""
     rng = np.random.default_rng(seed)
     n = 2 + int(rng.integers(1, 4))
     omega, bend, decays = rng.uniform(0.5, 2.0), rng.uniform(-0.3, 0.3), rng.uniform(0.2, 3.0, n - 2)

@@ -64,6 +64,7 @@ def test_fast_modes_have_their_adiabatic_multipliers():
     assert sizes[[0, 2]] == pytest.approx([0.183711, 0.020185], rel=1e-2)
 
 
+@pytest.mark.long
 def test_a_stiff_overcentre_doubles_its_period_once():
     response = stiff_response("F.amplitude", (0.0, 20.0), 15.0, 20.0, 1.5)
     (doubling,) = response.special_points

@@ -26,7 +26,7 @@ def only_point(curve):
     return point
 
 
-BOTH = pytest.mark.parametrize("forced", [False, True], ids=["free", "forced"])
+BOTH = pytest.mark.parametrize("forced", [pytest.param(False, marks=pytest.mark.long), True], ids=["free", "forced"])
 
 
 @BOTH
@@ -58,6 +58,7 @@ def test_an_orbit_doubles_its_period(forced):
     point = only_point(curve)
     assert point.kind == "PD"
     assert point["p"] == pytest.approx(0.0, abs=1e-8)
+    assert point.coefficients["type"] == "supercritical"
     double = (mc.continue_response if forced else mc.continue_cycles)(point)
     orbit = double.at(p=0.1)[0].orbit
     assert orbit.period == pytest.approx(2.0 * TWO_PI, rel=1e-9)
@@ -71,6 +72,7 @@ def test_a_torus_is_born(forced, omega):
     assert point.kind == "NS"
     assert point["p"] == pytest.approx(0.0, abs=1e-8)
     assert point.coefficients["rotation"] == pytest.approx(omega, abs=1e-8)
+    assert point.coefficients["type"] == "supercritical"
     assert point.note == ""
 
 

@@ -1,4 +1,4 @@
-"""Fields whose periodic orbits, multipliers and special points are known in closed form, seen through other coordinates.
+"""Fields whose periodic orbits, multipliers and special points are in closed form, seen through other coordinates.
 
 In the coordinates v of a normal form the orbit is a circle z = r exp(i t), or rest under forcing of period 2 pi; what
 happens across it is a normal form of its own. Where the plane of deviations turns by half a turn in a period, a

@@ -96,6 +96,7 @@ class Equations(ABC):
     6. Override capabilities only where they hold; each default says what the numerics do without it:
 
        - `passive` (and `pencils`): stability by the inertia of K, eigenvalues when they are read;
+       - `one_pattern`: a sparse df/dx is extrapolated to the next point;
        - `side_by_side`, `linearize_along`: long steps with points inside, rows between points;
        - `nonsmooth`, `pieces` and `active`: corners are found and crossed;
        - `periods`: curves that close full turns apart end there;
@@ -180,6 +181,11 @@ class Equations(ABC):
     @property
     def passive(self) -> bool:
         """Whether damping is symmetric and semidefinite in every state, so that the inertia of K tells stability."""
+        return False
+
+    @property
+    def one_pattern(self) -> bool:
+        """Whether a sparse df/dx has the same entries everywhere, so that it is extrapolated along a curve."""
         return False
 
     @property

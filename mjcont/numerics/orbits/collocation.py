@@ -160,6 +160,11 @@ class Orbits(Equations):
         c, h = self.flow.c, (p.period * self.lengths)[:, None]
         return np.hstack([s[:, :c] + h * s[:, c:] + self.scheme.ba @ p.w, s[:, c:] + (b @ p.w) / h])
 
+    @property
+    def one_pattern(self) -> bool:
+        """Whether the matrix has the same entries everywhere: it has."""
+        return True
+
     # -- equations ---------------------------------------------------------------------------------------------
 
     @property

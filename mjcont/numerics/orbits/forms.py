@@ -23,7 +23,7 @@ from scipy import sparse
 
 from mjcont.numerics.equations.bordered import Factored
 from mjcont.numerics.equations.problem import Array
-from mjcont.numerics.equations.system import Local
+from mjcont.numerics.equations.system import Condition, Local
 from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.defining import CycleFold, PeriodDoubling, Torus, orbits_of
 from mjcont.numerics.step.arclength import CurvePoint
@@ -61,10 +61,11 @@ def _whole(orbits: Orbits, vector: Array) -> Array:
     return found
 
 
-def square_of_fold(point: CurvePoint) -> float:
-    """Return w . D2[v, v] of an LPC."""
+def square_of_fold(point: CurvePoint, fold: Condition) -> float:
+    """Return w . D2[v, v] of an LPC; the curve's own condition keeps the sign of w from point to point."""
+    assert isinstance(fold, CycleFold)
     local = _accurate(point)
-    v, w, _ = CycleFold(local).vectors(local, np.zeros(0))
+    v, w, _ = fold.vectors(local, np.zeros(0))
     return float(w @ (_Bends(local, v).first @ v) / (np.linalg.norm(w * np.abs(local.jac).max()) * (v @ v)))
 
 

@@ -128,17 +128,14 @@ def _complex_pair(kind: str) -> Callable[[CurvePoint], bool]:
 def locus_detectors(kind: str) -> Callable[[System, Settings], list[Detector]]:
     """Return what makes the detectors of a curve of special orbits of a kind."""
     names = {"LPC": ("R1", "LPPD", "LPNS"), "PD": ("LPPD", "R2", "PDNS"), "NS": ("LPNS", "PDNS", "NSNS")}
-    own: dict[str, tuple[str, Test]] = {
-        "LPC": ("CPC", square_of_fold), "PD": ("GPD", cubic_of_doubling),
-        "NS": ("CH", lambda point: cubic_of_torus(point, float(point.y[-1]))),
-    }
+    own = {"LPC": "CPC", "PD": "GPD", "NS": "CH"}
 
     def make(system: System, settings: Settings) -> list[Detector]:
         if kind not in names:
             return []
         fold, doubling, pair = names[kind]
         found: list[Detector] = [
-            Meeting(own[kind][0], system, settings, own[kind][1]),
+            Meeting(own[kind], system, settings, _coefficient(kind, system)),
             Meeting(fold, system, settings, _towards(kind, 1.0)),
             Meeting(doubling, system, settings, _towards(kind, -1.0)),
             Meeting(pair, system, settings, _pairs(kind), _complex_pair(kind)),
@@ -148,6 +145,13 @@ def locus_detectors(kind: str) -> Callable[[System, Settings], list[Detector]]:
         return found
 
     return make
+
+
+def _coefficient(kind: str, system: System) -> Test:
+    """Return the coefficient of the normal form of a kind of special orbit."""
+    if kind == "LPC":
+        return lambda point: square_of_fold(point, system.conditions[0])
+    return cubic_of_doubling if kind == "PD" else lambda point: cubic_of_torus(point, float(point.y[-1]))
 
 
 # the angles of strong resonances, as (cos - cos(angle)) or sin tells them

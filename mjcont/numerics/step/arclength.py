@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from scipy import sparse
 from scipy.optimize import brentq
 
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, oriented
@@ -183,6 +184,11 @@ def _apart(point: CurvePoint, h: float) -> list[Earlier]:
     return chosen
 
 
+def _extrapolates(system: System, point: CurvePoint) -> bool:
+    """Whether the matrices of the last points tell that of the next: sparse ones only where all have one pattern."""
+    return system.problem.one_pattern or not sparse.issparse(point.jac)
+
+
 def _matrix_ahead(point: CurvePoint, h: float) -> Array:
     """Return G_z extrapolated to a step h ahead by the polynomial through the last points.
 
@@ -245,7 +251,7 @@ def advance(
     x, y = system.move(point.x, point.y, prediction)
     local = system.local(x, y)
     fresh = fresh and not _beyond_a_kink(system, point, local)
-    extrapolated = not (fresh or system.conditions)
+    extrapolated = not (fresh or system.conditions) and _extrapolates(system, point)
     expected = _TRUST * point.rate if extrapolated and len(point.past) == _PAST else math.inf
     lu = None if fresh else Factored(with_row(_matrix_ahead(point, h) if extrapolated else point.jac, point.tangent))
     c = correct(system, x, y, point.tangent, lu, settings, expected, _WANDER * abs(h), local)
@@ -318,7 +324,7 @@ def land(
     prediction = system.admissible(point.x, predict(point, h, steady=steady))
     x, y = system.move(point.x, point.y, prediction)
     y[index] = target
-    extrapolated = not (fresh or system.conditions)
+    extrapolated = not (fresh or system.conditions) and _extrapolates(system, point)
     lu = Factored(with_row(_matrix_ahead(point, h), row)) if extrapolated else None
     c = correct(system, x, y, row, lu, settings)
     if c.failure is not None:
