@@ -30,7 +30,7 @@ def known_result(table: Table, key: str, name: str, kinds: Sequence[str], contex
     if name not in valid:
         choices = [f"{n}_1" if k.kind == "diagram" and "branch" in kinds else n for n, k in valid.items()]
         choices += [f"{n}_1" for n, k in context.known.items() if k.kind == "diagram" and "diagram" not in kinds]
-        raise table.error(key, unknown_name(" or ".join(kinds), name, choices))
+        raise table.error(key, unknown_name(" or ".join(", ".join(kinds).rsplit(", ", 1)), name, choices))
     return valid[name]
 
 

@@ -97,7 +97,7 @@ def test_files_of_orbits_are_inspected_plotted_and_exported(done, capsys):
     ("old", "new", "message"),
     [
         ('point = "rest:HB1"', 'point = "rest:LP1"', "cycles[0].point: 'LP1': limit cycles begin at Hopf points"),
-        ('point = "rest:HB1"', 'point = "rust:HB1"', "cycles[0].point: unknown branch or cycles or response 'rust'"),
+        ('point = "rest:HB1"', 'point = "rust:HB1"', "cycles[0].point: unknown branch, cycles or response 'rust'"),
         ('point = "rest:HB1"', "", "cycles[0].parameter: this key is missing"),
         ('point = "rest:HB1"', 'point = "rest:HB1"\nstart = { P = 1.7 }', "cycles[0].start: 'point' says where"),
         ("max_points = 4", "mesh = 1", "cycles[0].settings: mesh must be a whole number from 2"),

@@ -95,7 +95,7 @@ WRONG = {
     "unknown keyframe": ('"unloaded"', '"unload"', ["branch[0].keyframe", "mean unloaded", "steep"]),
     "start outside": ("bounds = [-200, 200]", "bounds = [10, 200]", ["branch[0].start: P = 0 N", "10 N .. 200 N"]),
     "unknown branch": ('branch = "equilibria"', 'branch = "equilibrium"', ["barriers[0].branch", "mean equilibria?"]),
-    "diagram for a branch": ('"ways_1"', '"ways"', ["certificates[0].branch: unknown branch 'ways'", "ways_1"]),
+    "diagram for a branch": ('"ways_1"', '"ways"', ["certificates[0].branch: unknown branch, cycles or response 'ways'", "ways_1"]),
     "label kind": (
         'point = "equilibria:LP1"',
         'point = "equilibria:CP1"',
@@ -220,6 +220,16 @@ def test_a_model_that_mujoco_rejects_and_a_range_of_a_control_are_told(tmp_path:
     assert all("ctrlrange [-1, 2]" in line for line in lines)
 
 
+ORBITS = """
+[[cycles]]
+name = "flutter"
+point = "equilibria:HB1"
+[[responses]]
+name = "shaken"
+parameter = "frequency"
+bounds = [1, 2]
+forcing = { P = { amplitude = 1 } }
+"""
 ODD: list[Any] = [
     3,
     -1,
@@ -255,7 +265,7 @@ def test_no_value_of_any_key_breaks_the_check(kind: str) -> None:
 
     mechanism = Mechanism.from_xml("von_mises_truss")
     spec = PLOT if kind == "plot" else KINDS[kind]
-    data = tomllib.loads(BASE)
+    data = tomllib.loads(BASE + ORBITS)
     for key, value in itertools.product(spec.keys, ODD):
         context = Context(mechanism)
         for earlier, other in KINDS.items():
