@@ -106,13 +106,13 @@ KINDS = {
         Kind("NS", "Neimark-Sacker point", ("p", 7.0), _CYCLES, coefficients=("type", "theta", "rotation")),
         Kind("BPC", "branch point of cycles", ("8", 6.0), _CYCLES),
         *(
-            Kind(code, name, (marker, 6.5), _ON_CYCLES)
+            Kind(code, name, None if marker is None else (marker, 6.5), _ON_CYCLES)
             for code, name, marker in (
-                ("CPC", "cusp of cycles", "*"), ("GPD", "generalised period doubling", "v"),
-                ("CH", "Chenciner point", "^"), ("R1", "1:1 resonance", "1"), ("R2", "1:2 resonance", "2"),
-                ("R3", "1:3 resonance", "3"), ("R4", "1:4 resonance", "4"), ("LPPD", "fold-flip", "<"),
-                ("LPNS", "fold-Neimark-Sacker point", ">"), ("PDNS", "flip-Neimark-Sacker point", "P"),
-                ("NSNS", "double Neimark-Sacker point", "X"),
+                ("CPC", "cusp of cycles", "<"), ("GPD", "generalised period doubling", ">"),
+                ("CH", "Chenciner point", "H"), ("R1", "1:1 resonance", "1"), ("R2", "1:2 resonance", "2"),
+                ("R3", "1:3 resonance", "3"), ("R4", "1:4 resonance", "4"), ("LPPD", "fold-flip", "+"),
+                ("LPNS", "fold-Neimark-Sacker point", None), ("PDNS", "flip-Neimark-Sacker point", None),
+                ("NSNS", "double Neimark-Sacker point", None),
             )
         ),
         Kind("UZ", "user zero", ("x", 5.5), _BOTH),
