@@ -95,7 +95,9 @@ WRONG = {
     "unknown keyframe": ('"unloaded"', '"unload"', ["branch[0].keyframe", "mean unloaded", "steep"]),
     "start outside": ("bounds = [-200, 200]", "bounds = [10, 200]", ["branch[0].start: P = 0 N", "10 N .. 200 N"]),
     "unknown branch": ('branch = "equilibria"', 'branch = "equilibrium"', ["barriers[0].branch", "mean equilibria?"]),
-    "diagram for a branch": ('"ways_1"', '"ways"', ["certificates[0].branch: unknown branch, cycles or response 'ways'", "ways_1"]),
+    "diagram for a branch": (
+        '"ways_1"', '"ways"', ["certificates[0].branch: unknown branch, cycles or response 'ways'", "ways_1"],
+    ),
     "label kind": (
         'point = "equilibria:LP1"',
         'point = "equilibria:CP1"',
@@ -110,7 +112,7 @@ WRONG = {
     "later result": (
         'keyframe = "unloaded"',
         'from = "cycle:final"',
-        ["branch[0].from: unknown search or branch", "found"],
+        ["branch[0].from: unknown search, branch", "found"],
     ),
     "both starts": ('from = "found"', 'from = "found"\nstart = { P = 1 }', ["diagrams[0].start: 'from' says where"]),
     "unknown column": ('y = "z"', 'y = "zz"', ["plot[0].y: unknown column 'zz'", "Did you mean z?"]),
