@@ -28,15 +28,17 @@ def orbits_at_value(branch: CycleBranch, name: str, value: float) -> list[OrbitP
         raise MjcontError(f"at() of a curve of orbits takes a free parameter: {', '.join(branch.free)}; got '{name}'")
     flow = flow_for(branch.model, branch.forcing)
     column, found = branch[name] - value, []
-    for i in range(len(branch) - 1):
-        a, b = float(column[i]), float(column[i + 1])
+    for i in range(len(branch)):
+        a, j = float(column[i]), min(i + 1, len(branch) - 1)
+        b = float(column[j])
         if a == 0.0 or a * b < 0.0:
-            between = _between(branch.orbits[i], branch.orbits[i + 1], a / (a - b) if a else 0.0)
+            between = _between(branch.orbits[i], branch.orbits[j], a / (a - b) if a else 0.0)
             point = settled(flow, between, {**branch.parameters_at(i), name: value}, branch.orbits[i].shift, branch)
             found += [point] if point is not None else []
-    if len(branch) and column[-1] == 0.0:
-        found.append(branch.row(len(branch) - 1))
     return found
+
+# an orbit that is asked for is known to this part of the walk's tolerance: its multipliers err more than it does
+_SHARPER = 0.01
 
 
 def _between(one: Orbit, other: Orbit, fraction: float) -> Path:
@@ -50,7 +52,7 @@ def settled(
 ) -> OrbitPoint | None:
     """Return the orbit near a path at parameter values, on a mesh that resolves it; None where there is none."""
     tol, most = float(branch.settings["orbit_tol"]), int(branch.settings["mesh_max"])
-    point = orbit_near(flow, path, values, shift, MeshSettings(path.scheme, most=most, tol=tol))
+    point = orbit_near(flow, path, values, shift, MeshSettings(path.scheme, most=most, tol=_SHARPER * tol))
     if point is None:
         return None
     orbit = make_orbit(point)

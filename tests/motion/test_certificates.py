@@ -139,11 +139,12 @@ def test_the_certificate_goes_with_the_branch_into_its_file_and_summary(tmp_path
     assert mc.extend(loaded, (100, 320)).certificate is None
 
 
-def test_only_curves_of_equilibria_of_mechanisms_are_checked():
+def test_rests_of_a_vector_field_are_checked_loci_and_wrong_rows_are_refused():
     ode = mc.VectorField(lambda u, p: [p["a"] - u[0] ** 2], [1.0], {"a": 1.0})
-    with pytest.raises(mc.MjcontError, match="needs a curve of equilibria of a Mechanism"):
-        mc.verify_stability(mc.continue_equilibria(ode, "a", bounds=(0.5, 2)))
+    assert mc.verify_stability(mc.continue_equilibria(ode, "a", bounds=(0.5, 2)), 2).certificate.holds
     branch = curve("von_mises_truss")
+    with pytest.raises(mc.MjcontError, match="equilibria"):
+        mc.verify_stability(mc.continue_special(branch.point("LP1"), "H", bounds=(-5, 5)))
     with pytest.raises(mc.ParameterError, match="row 1000 is not on the branch"):
         mc.verify_stability(branch, rows=[1000])
     with pytest.raises(mc.ParameterError, match="must be positive"):
