@@ -129,7 +129,7 @@ def test_the_table_has_one_line_for_each_special_point(tmp_path: Path) -> None:
     assert lines[1].split() == ["kind", "points", "F", "[N]", "theta_1", "[deg]", *lines[1].split()[6:]]
 
 
-SLOW = ("overcentre_cycle.toml", "overcentre_design.toml")
+SLOW = ("overcentre_cycle.toml", "overcentre_design.toml", "overcentre_shaken.toml")
 
 
 @pytest.mark.parametrize(
