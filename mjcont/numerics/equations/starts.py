@@ -23,8 +23,6 @@ from mjcont.numerics.equations.system import Local, System
 _NO_Y = np.zeros(0)
 # damped Newton steps: most of them, the least part of one, the scaled step at which they end
 _DAMPED, _LEAST, _DONE = 100, 1e-6, 1e-7
-# the scaled Newton step at which a motion has come to rest, but for what that step does
-_AT_REST = 1e-5
 # an implicit step of the motion: its largest size, the part of it at which corrections end, and most of these, where
 # contact is made or broken and where it is not
 _LARGEST, _CLOSE, _AT_KINKS, _ELSEWHERE = 0.1, 0.03, 15, 4
@@ -130,7 +128,7 @@ def _pseudo_transient(system: System, x: Array, most: int = 600) -> tuple[Array,
         x = problem.retract(x, dx)
         local = system.local(x, no_y)
         newton = solve_linear(-local.raw_jac, local.f)
-        if size < 1e-3 and np.max(np.abs(newton) / scale) < _AT_REST:
+        if size < 1e-3 and np.max(np.abs(newton) / scale) < 1e-9:
             return x, None
         slow = size < 0.05 * _LARGEST and not problem.nonsmooth  # far below what a step may be, and nothing to strike
         dt *= 4.0 if slow else 2.0 if size < 0.5 * _LARGEST else 1.0
