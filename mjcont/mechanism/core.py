@@ -15,6 +15,7 @@ from mjcont.mechanism.observables import Readings
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.models.features import touching
 from mjcont.numerics.equations.problem import Array
+from mjcont.outside.memory import give_back
 from mjcont.results.text import ParameterTable
 
 _DISABLE = mujoco.mjtDisableBit
@@ -58,6 +59,7 @@ class Core:
         moved: Callable[[Array, Array], Array],
         evaluations: int = 0,
     ) -> None:
+        give_back()  # what earlier ones held
         self.parameters, self.geometry = parameters, geometry
         self.loaded, self.model = copy_model(model), evaluation_copy(model)
         self.writer = self.writer_of(self.model)

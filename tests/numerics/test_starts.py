@@ -10,7 +10,7 @@ import pytest
 
 import mjcont as mc
 
-# BifurcationKit.jl, issue 224: the repressilator with three equal genes, which oscillates
+# the repressilator with three equal genes, which oscillates (a case reported to the authors of BifurcationKit.jl)
 REPRESSILATOR = {"v": 10.0, "K": 20.0, "d": 0.1}
 
 

@@ -362,7 +362,7 @@ PLAIN = {
     "clock.TimeUp", "clock.allowance", "clock.check", "clock.expired", "clock.limited", "clock.unlimited",
     "trace.time_up",
     "arclength.Earlier", "arclength.CurvePoint", "between.Between", "box.Minimum", "coordinates.Slot", "creep.Crept",
-    "events.Found", "events.Located", "events.Detector", "guard.raise_unexpected",
+    "events.Found", "events.Located", "events.Detector", "events.ByOrientation", "guard.raise_unexpected",
     "guard.guarded", "interior.Interior", "interior.Gap", "kinds.Kind", "multistart.Runs",
     "newton.Corrected", "starts.Start",
     "normalform.Crossing", "normalform.Lyapunov", "notes.Noted", "problem.Equations", "problem.Linearization",

@@ -11,13 +11,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mjcont.numerics.equations.newton import Corrected, solve
+from mjcont.numerics.equations.newton import Corrected, known_to, solve
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Condition, System
 from mjcont.numerics.orbits.defining import CycleBranch, CycleFold
-from mjcont.numerics.points.events import Found, Located, approximate, bisect, point_at, within, zero_fraction
+from mjcont.numerics.points.events import (
+    ByOrientation,
+    Found,
+    Located,
+    approximate,
+    bisect,
+    point_at,
+    within,
+    zero_fraction,
+)
 from mjcont.numerics.points.on_equilibria import square_system
 from mjcont.numerics.step.arclength import CurvePoint
 
@@ -61,22 +70,8 @@ class FoldOfCycles:
         return Found() if result is None else Found([result])
 
 
-@dataclass(slots=True)
-class BranchOfCycles:
+class BranchOfCycles(ByOrientation):
     """BPC: the curve's orientation changes; where it does so without a branch point a shorter step is asked for."""
-
-    structural = True
-
-    system: System
-    settings: Settings
-
-    def value(self, point: CurvePoint) -> float:
-        """Return the orientation."""
-        return point.sign
-
-    def crossed(self, old: CurvePoint, new: CurvePoint) -> bool:
-        """Whether it changes."""
-        return old.sign != new.sign
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | Refused | None:
         near = approximate(self.system, old, new, 0.5, self.settings)
@@ -113,4 +108,4 @@ def located(
     s = within(system, old, new, c) if c.failure is None else None
     if s is None:
         return None
-    return Located(kind, point_at(system, old, new, c, s), c.step, True, {}), c.y[system.k :]
+    return Located(kind, point_at(system, old, new, c, s), known_to(full, c), True, {}), c.y[system.k :]

@@ -181,6 +181,24 @@ Solved = tuple[Corrected, System]
 
 
 @dataclass(slots=True)
+class ByOrientation:
+    """What a branch point is suspected by: the sign of det [G_z; t] at the ends of a step."""
+
+    structural = True
+
+    system: System
+    settings: Settings
+
+    def value(self, point: CurvePoint) -> float:
+        """Return the orientation."""
+        return point.sign
+
+    def crossed(self, old: CurvePoint, new: CurvePoint) -> bool:
+        """Whether the orientation changes; it is zero on a branch point, which belongs to the steps on both sides."""
+        return old.sign != new.sign
+
+
+@dataclass(slots=True)
 class ZeroDetector:
     """Zeros of a scalar function of a curve point: user zeros, and tests on loci without a system of their own.
 

@@ -19,6 +19,7 @@ from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points import normalform
 from mjcont.numerics.points.events import (
+    ByOrientation,
     Found,
     Located,
     ScalarZero,
@@ -58,22 +59,8 @@ def square_system(system: System, conditions: Sequence[Any], at: Corrected) -> t
     return full, np.concatenate([at.y, extra])
 
 
-@dataclass(slots=True)
-class BranchPointDetector:
+class BranchPointDetector(ByOrientation):
     """Simple branch points, by the sign of det [G_z; t]; a change with no point behind it asks for a shorter step."""
-
-    structural = True
-
-    system: System
-    settings: Settings
-
-    def value(self, point: CurvePoint) -> float:
-        """Return the orientation."""
-        return point.sign
-
-    def crossed(self, old: CurvePoint, new: CurvePoint) -> bool:
-        """Whether the orientation changes; it is zero on a branch point, which belongs to the steps on both sides."""
-        return old.sign != new.sign
 
     def _settle(
         self, old: CurvePoint, new: CurvePoint, unfolded: float, nearly: list[float]
