@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -22,7 +22,7 @@ from mjcont.numerics.points.on_loci import fold_locus_detectors, hopf_locus_dete
 from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
-from mjcont.results.model import check_bounds, model_of
+from mjcont.results.model import Valued, check_bounds, model_of
 from mjcont.results.points import SpecialPoint, show
 from mjcont.results.quantities import meant_each
 
@@ -42,34 +42,7 @@ def continue_special(
     progress: Progress | None = None,
     **options: Any,
 ) -> Branch:
-    """Follow a special point in one more parameter; the parameters of its own curve stay free.
-
-    Parameters
-    ----------
-    point : SpecialPoint
-        An LP, HB or BP of a branch gives its curve in two parameters; a CP, BT or ZH of such a curve its own curve
-        in three.
-    parameter : str
-        The parameter that is freed.
-    bounds : (low, high), or a mapping of free parameters to bounds
-        Range of `parameter`; the others keep the bounds of the point's curve unless given here.
-    direction : {None, +1, -1}
-        Both directions, or that in which `parameter` first grows or falls.
-    end_at : kinds of points that end the locus; default BT on a Hopf locus (beyond it lie neutral saddles).
-    zeros : columns whose passing of a value, or of several, is located and labelled UZ.
-    lyapunov : whether l1 is computed along a Hopf locus (needed for GH).
-
-    Returns
-    -------
-    Branch
-        Its `kind` says which locus. On a fold locus CP, BT, ZH and BP (w . f_p = 0) are located, on a Hopf locus
-        BT, ZH, HH and GH.
-
-    Raises
-    ------
-    MjcontError, BoundsError, NameLookupError, ParameterError
-        See their messages.
-    """
+    """Follow a special point of equilibria: `mjcont.oscillation.loci.continue_special`, which says what is what."""
     kind = _continued_as(point)
     settings = make_settings(options)
     free = _freed(point, kind, free_parameters(point, parameter, bounds))
@@ -77,11 +50,7 @@ def continue_special(
     stop: Callable[[Any], str | None] | None = unfolding_stop(system) if kind == "BP" else None
     zeros = meant_each(zeros, system.names, point.model.observables)
     detectors = locus_detectors(kind, system, settings, lyapunov, zeros)
-    for name in end_at or ():
-        if name not in KINDS:
-            raise unknown_name("kind of special point", name, KINDS)
-    ends = frozenset(end_at if end_at is not None else default_ends(kind))
-    walker = Walker(OneByOne(system, settings, detectors), stop, ends)
+    walker = Walker(OneByOne(system, settings, detectors), stop, ends_at(end_at, default_ends(kind)))
     directions = check_direction(direction)
     lead = len(free) - 1
     with clock.limited(settings.max_seconds):
@@ -132,11 +101,31 @@ def followed_as(point: SpecialPoint) -> str:
     return point.kind
 
 
+def ends_at(end_at: Sequence[str] | None, default: Iterable[str]) -> frozenset[str]:
+    """Return the kinds of special points at which a locus ends: those asked for, or the default ones.
+
+    Raises
+    ------
+    NameLookupError
+        If there is no such kind.
+    """
+    for name in end_at or ():
+        if name not in KINDS:
+            raise unknown_name("kind of special point", name, KINDS)
+    return frozenset(default if end_at is None else end_at)
+
+
 def free_parameters(
-    point: SpecialPoint, parameter: str, bounds: tuple[float, float] | Mapping[str, tuple[float, float]] | None
+    point: SpecialPoint,
+    parameter: str,
+    bounds: tuple[float, float] | Mapping[str, tuple[float, float]] | None,
+    moving: Valued | None = None,
 ) -> list[Free]:
-    """Return the parameters of the point's curve and the new one, each with its bounds."""
-    problem = point.model
+    """Return the parameters of the point's curve and the new one, each with its bounds.
+
+    They are those of the point's model, or of what is `moving` with more parameters than that.
+    """
+    problem: Valued = point.model if moving is None else moving
     given = dict(bounds) if isinstance(bounds, Mapping) else ({} if bounds is None else {parameter: bounds})
     if parameter in point.free:
         raise ParameterError(f"{parameter} is already free on the curve of {point.label}: name another parameter")

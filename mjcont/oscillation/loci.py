@@ -12,19 +12,15 @@ from mjcont.curves import loci
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction
 from mjcont.curves.walkers import Zeros
-from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
-from mjcont.numerics.equations.free import Free
+from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.follow import laid
 from mjcont.numerics.orbits.loci import held_system, locus_detectors
-from mjcont.numerics.points.kinds import KINDS
 from mjcont.numerics.step.arclength import tangent_at
-from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.onward import flow_at, orbit_at
 from mjcont.oscillation.walks import Entry, Special, read_options, run
 from mjcont.results.branch import Branch
-from mjcont.results.model import check_bounds
 from mjcont.results.orbits import CycleBranch, SpecialOrbit
 from mjcont.results.points import SpecialPoint
 
@@ -104,17 +100,14 @@ def _of_orbits(
     flow = flow_at(orbit)
     own = {"scheme": orbit.path.scheme.name, "degree": orbit.path.scheme.degree}
     read = read_options(flow, {**own, **options})
-    free = _freed(flow, point, parameter, bounds)
-    for name in end_at or ():
-        if name not in KINDS:
-            raise unknown_name("kind of special point", name, KINDS)
+    free = loci.free_parameters(point, parameter, bounds, flow)
     orbits = laid(flow, orbit.path, orbit.shift)
     plain = System(orbits, orbit.parameters, free)
     aux = [float(point.coefficients["theta"])] if kind == "NS" else []
     x, y = orbits.joined(orbit.path), np.append(plain.start_y(), aux)
     system = held_system(kind, plain, x, y)
     entries = [Entry(sign, x, y, _along(system, x, y, sign)) for sign in check_direction(direction)]
-    ends = frozenset(end_at if end_at is not None else ("R1", "R2") if kind == "NS" else ())
+    ends = loci.ends_at(end_at, ("R1", "R2") if kind == "NS" else ())
     special = Special(locus_detectors(kind), partial(held_system, kind), ends)
     where = ", ".join(f"{p.name} = {p.show(system.base[p.name])}" for p in free)
     return run(f"{kind} locus", system, entries, read, f"from {point.label} at {where}", None, progress, (), special)
@@ -126,22 +119,3 @@ def _along(system: System, x: Array, y: Array, direction: float) -> Array:
     lead = system.n + len(system.free) - 1
     return tangent if tangent[lead] * direction >= 0.0 else -tangent
 
-
-def _freed(flow: ModelFlow, point: SpecialOrbit, parameter: str, bounds: Bounds) -> list[Free]:
-    """Return the parameter of the point's curve and the new one, each with its bounds."""
-    given = dict(bounds) if isinstance(bounds, Mapping) else ({} if bounds is None else {parameter: bounds})
-    if parameter in point.free:
-        raise ParameterError(f"{parameter} is already free on the curve of {point.label}: name another parameter")
-    names = [next(iter(point.free)), parameter]
-    for name in given:
-        if name not in names:
-            raise ParameterError(f"bounds are given for '{name}', which is not free here. Free: {', '.join(names)}.")
-    found = []
-    for name in names:
-        low, high = check_bounds(flow, name, given.get(name, point.free.get(name)))
-        free, value = Free(name, low, high, flow.parameter(name).unit), point.parameters[name]
-        if not low <= value <= high:
-            raise BoundsError(f"{point.label} has {name} = {free.show(value)}, outside the bounds {free.show(low)} .. "
-                              f"{free.show(high)}")
-        found.append(free)
-    return found

@@ -111,6 +111,14 @@ class Parametrised(Protocol):
         ...
 
 
+class Valued(Parametrised, Protocol):
+    """The same, with a value for each of them."""
+
+    def values(self, given: Mapping[str, float] | None = None) -> dict[str, float]:
+        """Return a value for every parameter: those given, the defaults for the others."""
+        ...
+
+
 def check_bounds(problem: Parametrised, name: str, bounds: tuple[float, float] | None) -> tuple[float, float]:
     """Return the bounds of a parameter: those given, or its own.
 

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from mjcont.numerics.equations.newton import Corrected
+from mjcont.numerics.equations.newton import Corrected, length
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
@@ -255,12 +255,16 @@ def _several(
     if len(seen) < _SAMPLES - 2:
         return None
     means = np.array([m for _, m, _ in seen])
-    if means.min() > 0.0 or means.max() < 0.0:
+    if means[0] * means[-1] > 0.0:
         return None
     fractions = np.array([t for t, _, _ in seen])
-    root = float(brentq(lambda t: float(_interpolated(fractions, means, t)), fractions[0], fractions[-1], xtol=1e-14))
+    root = _root(fractions, means)
+    inner = slice(1, -1)  # what leaving the outermost out changes is the error
+    told = means[inner][0] * means[inner][-1] < 0.0
+    doubt = abs(_root(fractions[inner], means[inner]) - root) if told else _AROUND
+    known = max(doubt * length(system.difference(new.x, new.y, old.x, old.y)), settings.tol)
     x, y = (_interpolated(fractions, np.array(v), root) for v in zip(*((c.x, c.y) for _, _, c in seen), strict=True))
-    c = Corrected(x, y, system.local(x, y), None, 0, 0.0, 1e-10, 0.0)
+    c = Corrected(x, y, system.local(x, y), None, 0, 0.0, known, 0.0)
     c = replace(c, error=system.error(c.local, x, y))
     passing = max((_changed(*sorted(ends, key=lambda p: len(_outside(p)))) for ends in ((old, new), step)),
                   key=lambda m: float(np.abs(m.imag).max(initial=0.0)))
@@ -273,6 +277,13 @@ def _several(
 def _mean(point: CurvePoint, first: int, last: int) -> float:
     """Return the mean of log |mu| of some of the resolved multipliers, the largest being the first."""
     return float(_sizes(point)[first:last].mean())
+
+
+def _root(fractions: Array, means: Array) -> float:
+    """Return where the polynomial through means vanishes between the outermost fractions."""
+    return float(
+        brentq(lambda t: float(_interpolated(fractions, means, t)), fractions[0], fractions[-1], xtol=1e-14)
+    )
 
 
 def _interpolated(places: Array, values: Array, at: float) -> Array:
