@@ -20,8 +20,8 @@ STAMP_TEXT = printf '%s\n' "$(CURDIR)" "$(PYTHON)"
 FRESH := $(shell $(BIN)/python -c 'import pip' 2>/dev/null && $(STAMP_TEXT) | cmp -s - $(STAMP) && echo yes)
 
 .DEFAULT_GOAL := help
-.PHONY: help env reproduce reproduce-fast test test-long test-fuzz test-shaken test-shaken-fast test-kernels test-faults thirdparty \
-	test-thirdparty bench clean FORCE
+.PHONY: help env reproduce reproduce-fast test test-long test-fuzz test-shaken test-shaken-fast test-kernels \
+	test-faults thirdparty test-thirdparty bench clean FORCE
 
 help: ## list these targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 # \2/p' $(MAKEFILE_LIST) | awk -F' # ' '{ printf "%-23s %s\n", $$1, $$2 }'

@@ -83,10 +83,11 @@ class Journal:
     ) -> None:
         self.path, self.header, self._begin, self._earlier = path, dict(header), begin, earlier or {}
         self.records: dict[int, dict[str, Any]] = {}
-        self._handle = -1
+        self._handle, self._ours = -1, False
 
     def __enter__(self) -> Journal:
         """Open the file, lock it, and read what is there."""
+        self._ours = not os.path.lexists(self.path)
         try:
             self._handle = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0), 0o666)
         except OSError as error:
@@ -108,8 +109,8 @@ class Journal:
         self._close()
 
     def _close(self) -> None:
-        """Close the file; one into which not even a first line could be written is not left."""
-        if os.fstat(self._handle).st_size == 0:
+        """Close the file; a new one into which not even a first line could be written is not left."""
+        if self._ours and os.fstat(self._handle).st_size == 0:
             self.path.unlink(missing_ok=True)
         os.close(self._handle)
 

@@ -72,6 +72,14 @@ def test_a_journal_has_whole_lines_or_is_not_there(tmp_path: Path, size: int, li
     assert (target.read_bytes().count(b"\n") if target.exists() else None) == lines
 
 
+def test_a_link_in_a_journals_place_stays_whatever_happens(tmp_path: Path) -> None:
+    (tmp_path / "elsewhere.jsonl").touch()
+    (tmp_path / "s.jsonl").symlink_to(tmp_path / "elsewhere.jsonl")
+    assert in_child(JOURNAL, tmp_path / "s.jsonl", 100).stdout.startswith("cannot write")
+    assert (tmp_path / "s.jsonl").is_symlink()
+    assert (tmp_path / "elsewhere.jsonl").exists()
+
+
 def test_a_full_device_is_named(tmp_path: Path) -> None:
     if not Path("/dev/full").exists():
         pytest.skip("this system has no /dev/full")
