@@ -329,7 +329,7 @@ CASES = {
     "balance.Balance": lambda b: balance.Balance(b.system, b.settings).pieces(*b.pair),
     "balance.multiple": lambda b: balance.multiple(balance.Piece(*b.pair, 2)),
     "tracks.motion_at": lambda b: tracks.motion_at(b.point()),
-    "tracks.meetings": lambda b: [tracks.meetings(pair, 0) for pair in (b.pair, (b.point(), b.point()))],
+    "tracks.meetings": lambda b: [tracks.meetings(pair, 0, [], None) for pair in (b.pair, (b.point(), b.point()))],
     "tracks.interpolated": lambda b: [tracks.interpolated(pair, 0) for pair in (b.pair, (b.point(), b.point()))],
     "tracks.tracks": lambda b: [tracks.tracks(pair, 0) for pair in (b.pair, (b.point(), b.point()))],
     "tracks.Tracks": lambda b: tracks.Tracks(*6 * [np.full(b.n, math.nan)]).meetings(),

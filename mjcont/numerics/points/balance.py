@@ -129,7 +129,8 @@ class Balance:
     def _judged(self, nodes: Sequence[CurvePoint], i: int) -> Piece | _Cut:
         """Return a piece that is not to be halved any further, or where it is to be."""
         a, b = nodes[i], nodes[i + 1]
-        met, last = meetings(nodes, i), self._made >= _MOST
+        parts, followed = interpolated(nodes, i), tracks(nodes, i)
+        met, last = meetings(nodes, i, parts, followed), self._made >= _MOST
         if len(met) > 1 or (met and not met[0].crosses and not self._turns(a, b)):
             if b.s - a.s < _ALONE or last:
                 kind = met[0].oscillates
@@ -138,7 +139,7 @@ class Balance:
                 return Piece(a, b, together if together > 1 else 0, kind, alike)
             at = met[0].at if len(met) == 1 else 0.5 * (met[0].at + met[1].at)
             return _Cut(min(max(at, _EDGE), 1.0 - _EDGE), met)
-        strays = None if last or met and b.s - a.s < _NEAR else self._strays(nodes, i)
+        strays = None if last or met and b.s - a.s < _NEAR else self._strays(a, b, parts, followed)
         return Piece(a, b, quiet=not met) if strays is None else _Cut(strays)
 
     def _turns(self, a: CurvePoint, b: CurvePoint) -> bool:
@@ -146,14 +147,12 @@ class Balance:
         n = self.system.n
         return a.sign * b.sign < 0.0 and a.tangent[n] * b.tangent[n] <= 0.0
 
-    def _strays(self, nodes: Sequence[CurvePoint], i: int) -> float | None:
+    def _strays(self, a: CurvePoint, b: CurvePoint, parts: Sequence[Array], followed: Tracks | None) -> float | None:
         """Return where an eigenvalue strays so far from what the points tell that it may reach the axis, or None."""
-        a, b = nodes[i], nodes[i + 1]
-        followed = tracks(nodes, i)
         count = math.ceil((b.s - a.s) / (_PLACES * self.settings.ds_max) - 0.1) - 1
         if count < 1 or followed is None:
             return None
-        probe = _Probe.of(self.system, nodes, i)
+        probe = _Probe.of(self.system, a, b, parts)
         worst, where = 1.0, None
         for t in (np.arange(count) + 1.0) / (count + 1.0):
             share = probe.strays(float(t), followed)
@@ -195,9 +194,9 @@ class _Probe:
     along: list[Array]
 
     @staticmethod
-    def of(system: System, nodes: Sequence[CurvePoint], i: int) -> _Probe:
-        """Return the probe of the piece between points i and i + 1."""
-        a, motion, n, scale = nodes[i], motion_at(nodes[i]), system.n, system.problem.state_scale
+    def of(system: System, a: CurvePoint, b: CurvePoint, parts: Sequence[Array]) -> _Probe:
+        """Return the probe of the piece between two points, with the matrices interpolated between them."""
+        motion, n, scale = motion_at(a), system.n, system.problem.state_scale
         assert motion is not None and motion.modes is not None
         modes = motion.modes
         size = np.abs(modes.right[:n] / scale[:, None]).max(axis=0)
@@ -205,11 +204,11 @@ class _Probe:
         whole = (unit.real + unit.imag).sum(axis=1)
         mass, left = a.local.pencil.mass, modes.left[-n:].conj().T
         left = left if mass is None else np.linalg.solve(mass.T, left.T).T
-        parts = np.abs(modes.left.conj().T @ whole)
+        shares = np.abs(modes.left.conj().T @ whole)
         length = float(np.abs(whole[:n] / scale).max()) or 1.0
-        left = left / np.where(parts > 0.0, parts, 1.0)[:, None] * length
+        left = left / np.where(shares > 0.0, shares, 1.0)[:, None] * length
         vector = whole[:n] / length
-        return _Probe(system, a, nodes[i + 1], vector, left, [part @ vector for part in interpolated(nodes, i)])
+        return _Probe(system, a, b, vector, left, [part @ vector for part in parts])
 
     def strays(self, t: float, followed: Tracks) -> float:
         """Return by how much an eigenvalue strays at a part of the piece, one where it is worth a point there."""

@@ -104,15 +104,24 @@ def _motion(point: CurvePoint) -> Motion | None:
         return None
     try:
         values, left, right = linalg.eig(matrix, left=True, right=True)
-        own = linalg.eigvals(jac) if second else values
+        held = int(np.count_nonzero(np.abs(values) <= floor)) if not second else _vanishing(jac, floor)
     except (linalg.LinAlgError, ValueError):
         return None
     products = np.einsum("ij,ij->j", left.conj(), right)
     sure = np.abs(products) > _DEFECTIVE
     left = left / np.where(sure, products, 1.0).conj()
     noise = (_SECOND if second else _FOURTH) * np.abs(matrix).max() + _OWN * np.abs(values)
-    held = int(np.count_nonzero(np.abs(own) <= floor))
     return Motion(jac, held, Modes(matrix, values, right, left, noise, sure))
+
+
+def _vanishing(matrix: Array, floor: float) -> int:
+    """Return how many eigenvalues of a matrix are at most a floor in size; none is below 1 / |inverse|."""
+    try:
+        if float(np.linalg.norm(np.linalg.inv(matrix))) * floor < 1.0:
+            return 0
+    except np.linalg.LinAlgError:
+        pass
+    return int(np.count_nonzero(np.abs(linalg.eigvals(matrix)) <= floor))
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,14 +133,13 @@ class Meeting:
     oscillates: bool
 
 
-def meetings(nodes: Sequence[CurvePoint], i: int) -> list[Meeting]:
+def meetings(nodes: Sequence[CurvePoint], i: int, parts: Sequence[Array], followed: Tracks | None) -> list[Meeting]:
     """Return where eigenvalues reach the axis between points i and i + 1 of a curve, or may, in order.
 
-    The points beside help. Eigenvalues on the axis at one end are left out: what lies on a point belongs to the steps
-    on both sides.
+    As the matrices `interpolated` between them and the eigenvalues followed by `tracks` tell. Eigenvalues on the axis
+    at one end are left out: what lies on a point belongs to the steps on both sides.
     """
-    followed = tracks(nodes, i)
-    return sorted([*_zeros(nodes, i), *([] if followed is None else followed.meetings())], key=lambda m: m.at)
+    return sorted([*_zeros(nodes, i, parts), *([] if followed is None else followed.meetings())], key=lambda m: m.at)
 
 
 def _around(nodes: Sequence[CurvePoint], i: int) -> list[CurvePoint]:
@@ -154,12 +162,12 @@ def interpolated(nodes: Sequence[CurvePoint], i: int) -> list[Array]:
     return list(np.tensordot(inverse, stack, axes=1))
 
 
-def _zeros(nodes: Sequence[CurvePoint], i: int) -> list[Meeting]:
+def _zeros(nodes: Sequence[CurvePoint], i: int, parts: Sequence[Array]) -> list[Meeting]:
     """Return where det J(t) vanishes between points i and i + 1, or nearly does."""
     a, b = motion_at(nodes[i]), motion_at(nodes[i + 1])
     if a is None or b is None or (a.held and b.held):
         return []
-    roots = _polynomial_eigenvalues(interpolated(nodes, i))
+    roots = _polynomial_eigenvalues(parts)
     inside = [complex(r) for r in roots if 0.0 < r.real < 1.0 and abs(r.imag) < min(r.real, 1.0 - r.real)]
     for held, end in ((a.held, 0.0), (b.held, 1.0)):
         own = sorted((r for r in inside if abs(r - end) < _OWN_ROOT), key=lambda r: abs(r - end))[:held]
