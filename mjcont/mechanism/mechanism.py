@@ -21,6 +21,7 @@ from mjcont.errors import ParameterError, unknown_name
 from mjcont.mechanism.core import ENGINE, copy_model, evaluation_copy, is_constrained, owned_copy
 from mjcont.mechanism.declarations import Declaration
 from mjcont.mechanism.geometry import Geometry, refuse_overlap
+from mjcont.mechanism.manifold import Manifold
 from mjcont.mechanism.observables import Observed, model_observables
 from mjcont.mechanism.parameters import collect_parameters, declared_parameter
 from mjcont.mechanism.sharing import Shareable
@@ -29,7 +30,7 @@ from mjcont.mechanism.zeromodes import whole as rigid
 from mjcont.mechanism.zeromodes.parts import Held
 from mjcont.models import features, loading
 from mjcont.models.actuators import bush_names
-from mjcont.models.states import checked_state, coordinates_are_flat, keyframes, model_name, state_labels, state_scale
+from mjcont.models.states import checked_state, keyframes, model_name, state_labels, state_scale
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.model import Model
 from mjcont.results.quantities import Parameter, told_apart
@@ -80,7 +81,7 @@ class Mechanism(Shareable, Observed, Held, Model):
         self.name = model_name(model)
         self.nq, self.n = model.nq, model.nv
         self.qpos0 = model.qpos0.copy()
-        self._flat = coordinates_are_flat(model)
+        self._manifold = Manifold(model)
         self.state_scale = state_scale(model)
         geometry = geometry or Geometry(None)
         self.parameters = collect_parameters(evaluation_copy(copy_model(model)), geometry)
@@ -285,35 +286,19 @@ class Mechanism(Shareable, Observed, Held, Model):
 
     def retract(self, x: Array, step: Array) -> Array:
         """Return qpos moved by a tangent step, quaternions normalised."""
-        if self._flat:
-            return x + step
-        moved = x.copy()
-        mujoco.mj_integratePos(self._core.model, moved, step, 1.0)
-        return moved
+        return self._manifold.retract(x, step)
 
     def difference(self, x1: Array, x0: Array) -> Array:
         """Return the tangent step (nv,) from x0 to x1."""
-        if self._flat:
-            return x1 - x0
-        step = np.empty(self.n)
-        mujoco.mj_differentiatePos(self._core.model, step, 1.0, x0, x1)
-        return step
+        return self._manifold.difference(x1, x0)
 
     def difference_each(self, ends: Array, starts: Array) -> Array:
         """Return the tangent steps (m, nv) that take states (m, nq), or one (nq,), to others."""
-        if self._flat:
-            return ends - starts
-        ends, starts = np.broadcast_arrays(ends, starts)
-        steps = [self.difference(b, a) for b, a in zip(ends, starts, strict=True)]
-        return np.array(steps).reshape(len(steps), self.n)
+        return self._manifold.difference_each(ends, starts)
 
     def retract_each(self, states: Array, steps: Array) -> Array:
         """Return states (m, nq), or one (nq,), moved by the rows of tangent steps (m, nv)."""
-        if self._flat:
-            return states + steps
-        every = np.broadcast_to(states, (len(steps), self.nq))
-        moved = [self.retract(x, s) for x, s in zip(every, steps, strict=True)]
-        return np.array(moved).reshape(len(moved), self.nq)
+        return self._manifold.retract_each(states, steps)
 
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""

@@ -12,6 +12,7 @@ import mujoco
 
 from mjcont.mechanism.core import Core, copy_model, simulation_copy
 from mjcont.mechanism.geometry import Geometry
+from mjcont.mechanism.manifold import Manifold
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.quantities import Observable, Parameter
@@ -63,18 +64,20 @@ class Shareable:
     mjcf: str | None
     constrained: bool
     state_scale: Array
-    retract_each: Callable[[Array, Array], Array]
     declare: Callable[..., Parameter]
+    _manifold: Manifold
     _friction: str
     _held: tuple[str, ...]
     _cores: Cores
 
     def _own(self, model: mujoco.MjModel, geometry: Geometry) -> None:
         """Take a model: every thread makes a core from a copy, the calling one at once."""
+        # none of these knows the mechanism: what it holds is free as soon as nothing refers to it
+        parameters, constrained, scale = self.parameters, self.constrained, self.state_scale
+        moved = self._manifold.retract_each
 
         def make(own: mujoco.MjModel, evaluations: int) -> Core:
-            parameters, scale = self.parameters, self.state_scale
-            return Core(own, parameters, geometry, self.constrained, scale, self.retract_each, evaluations)
+            return Core(own, parameters, geometry, constrained, scale, moved, evaluations)
 
         self._cores = Cores(make, geometry.with_layout(copy_model(model), self.parameters))
 

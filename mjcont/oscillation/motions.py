@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from mjcont.errors import StartError
+from mjcont.numerics.equations.algebra import root
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.follow import MeshSettings, orbit_near
 from mjcont.numerics.orbits.path import Path
@@ -187,7 +187,7 @@ def _return(
     sides = ahead(motion.times)
     for i in np.flatnonzero((sides[:-2] < 0.0) & (sides[1:-1] >= 0.0))[::-1].tolist():
         a, b = motion.times[i], motion.times[i + 1]
-        time = float(brentq(lambda t: float(ahead(np.array([t]))[0]), a, b)) if sides[i + 1] > 0.0 else float(b)
+        time = root(lambda t: float(ahead(np.array([t]))[0]), a, b) if sides[i + 1] > 0.0 else float(b)
         if np.abs(motion.apart(np.array([time]))[0] / extent).max() < near:
             return time
     return None

@@ -171,6 +171,7 @@ CASES = {
     "algebra.eigenvalues": lambda b: algebra.eigenvalues(np.full((b.n, b.n), math.nan)),
     "algebra.symmetric_eigenvalues": lambda b: algebra.symmetric_eigenvalues(np.full((b.n, b.n), math.nan)),
     "algebra.eigenvectors": lambda b: algebra.eigenvectors(np.full((b.n, b.n), math.inf)),
+    "algebra.root": lambda b: (algebra.root(lambda x: math.nan, 0.0, 1.0), algebra.root(lambda x: 1.0, 0.0, 1.0)),
     "algebra.cholesky": lambda b: algebra.cholesky(np.zeros((2, b.n, b.n))),
     "arclength.point_from": lambda b: arclength.first_point(b.system, b.x, b.y, 1.0, b.settings),
     "arclength.first_point": lambda b: arclength.first_point(b.system, b.x, b.y, 1.0, b.settings),

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from mjcont.numerics.equations.problem import Array
 
@@ -91,3 +92,18 @@ def _stacked(function: Callable[[Array], Any], matrix: Array) -> Array:
     if matrix.ndim == 2:
         return _defined(function, matrix, like=matrix[0])
     return _each(function, matrix, like=matrix[:, 0])
+
+
+def root(function: Callable[[float], float], low: float, high: float, tolerance: float = 2e-12) -> float:
+    """Return where a function vanishes between two places (Brent); NaN where its signs there are equal.
+
+    Also where it raises ValueError. SciPy wraps the function in one that refers to itself, so that what it knows would
+    be held, a whole mechanism perhaps, until cycles are looked for.
+    """
+    held = [function]
+    try:
+        return float(brentq(lambda at: held[0](at), low, high, xtol=tolerance))  # noqa: PLW0108
+    except ValueError:
+        return float("nan")
+    finally:
+        held.clear()

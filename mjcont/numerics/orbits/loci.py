@@ -17,8 +17,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.optimize import brentq
 
+from mjcont.numerics.equations.algebra import root
 from mjcont.numerics.equations.newton import Corrected
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import Settings
@@ -72,11 +72,7 @@ class Meeting:
             seen[fraction] = (self.test(point_at(self.system, old, new, near, old.s)), near)
             return seen[fraction][0]
 
-        try:
-            brentq(at, 0.0, 1.0, xtol=_CLOSE)
-        except ValueError:
-            return Found()
-        if not seen:
+        if math.isnan(root(at, 0.0, 1.0, _CLOSE)) or not seen:
             return Found()
         rest, near = min(seen.values(), key=lambda pair: abs(pair[0]))
         s = within(self.system, old, new, near)

@@ -15,8 +15,8 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
 
+from mjcont.numerics.equations.algebra import root
 from mjcont.numerics.equations.newton import Corrected, length
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
@@ -281,9 +281,7 @@ def _mean(point: CurvePoint, first: int, last: int) -> float:
 
 def _root(fractions: Array, means: Array) -> float:
     """Return where the polynomial through means vanishes between the outermost fractions."""
-    return float(
-        brentq(lambda t: float(_interpolated(fractions, means, t)), fractions[0], fractions[-1], xtol=1e-14)
-    )
+    return root(lambda t: float(_interpolated(fractions, means, t)), fractions[0], fractions[-1], 1e-14)
 
 
 def _interpolated(places: Array, values: Array, at: float) -> Array:

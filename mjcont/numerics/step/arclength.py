@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.optimize import brentq
 
+from mjcont.numerics.equations.algebra import root
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, oriented
 from mjcont.numerics.equations.newton import Corrected, correct, length, undefined, with_row
 from mjcont.numerics.equations.problem import Array
@@ -225,7 +225,7 @@ def aim(
 
         at_start, at_end = missing(0.0), missing(reach)
         if at_start == 0.0 or at_start * at_end < 0.0:
-            met.append((brentq(missing, 0.0, reach) if at_start else 0.0, i, bound))
+            met.append((root(missing, 0.0, reach) if at_start else 0.0, i, bound))
     if not met:
         return None
     t, i, bound = min(met)

@@ -1,0 +1,49 @@
+"""The poses of a model as a manifold: a pose moved by a tangent step, and the step between two poses."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from mjcont.models.states import coordinates_are_flat
+from mjcont.numerics.equations.problem import Array
+
+
+class Manifold:
+    """Poses (nq,) of a model and tangent steps (nv,): vectors, but for the quaternions of ball and free joints."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self._model, self._nq, self._n = model, int(model.nq), int(model.nv)
+        self._flat = coordinates_are_flat(model)
+
+    def retract(self, x: Array, step: Array) -> Array:
+        """Return a pose moved by a tangent step, quaternions normalised."""
+        if self._flat:
+            return x + step
+        moved = x.copy()
+        mujoco.mj_integratePos(self._model, moved, step, 1.0)
+        return moved
+
+    def difference(self, x1: Array, x0: Array) -> Array:
+        """Return the tangent step from x0 to x1."""
+        if self._flat:
+            return x1 - x0
+        step = np.empty(self._n)
+        mujoco.mj_differentiatePos(self._model, step, 1.0, x0, x1)
+        return step
+
+    def difference_each(self, ends: Array, starts: Array) -> Array:
+        """Return the tangent steps (m, nv) that take poses (m, nq), or one (nq,), to others."""
+        if self._flat:
+            return ends - starts
+        ends, starts = np.broadcast_arrays(ends, starts)
+        steps = [self.difference(b, a) for b, a in zip(ends, starts, strict=True)]
+        return np.array(steps).reshape(len(steps), self._n)
+
+    def retract_each(self, states: Array, steps: Array) -> Array:
+        """Return poses (m, nq), or one (nq,), moved by the rows of tangent steps (m, nv)."""
+        if self._flat:
+            return states + steps
+        every = np.broadcast_to(states, (len(steps), self._nq))
+        moved = [self.retract(x, s) for x, s in zip(every, steps, strict=True)]
+        return np.array(moved).reshape(len(moved), self._nq)
