@@ -12,6 +12,7 @@ from functools import cache
 import mujoco
 import numpy as np
 import pytest
+from problems.marks import long
 from scipy.optimize import brentq, minimize_scalar
 
 import mjcont as mc
@@ -52,7 +53,7 @@ def extrema(exponent):
     return drive(high.x), drive(low.x)
 
 
-@pytest.mark.parametrize("exponent", [3.0, 4.0, 5.5, 6.0, 6.5, 7.0, 8.0])
+@pytest.mark.parametrize("exponent", [3.0, 5.5, 8.0, *map(long, (4.0, 6.0, 6.5, 7.0))])
 def test_both_folds_are_found_at_any_stiffness_of_the_contact(exponent):
     branch = mc.continue_equilibria(mc.Mechanism.from_xml(model(exponent)), "M", bounds=(-60, 60))
     assert [word for word, _ in branch.ends] == ["at bound", "at bound"]
@@ -71,7 +72,7 @@ def test_folds_tend_to_those_of_a_rigid_incline():
     np.testing.assert_allclose([p["M"] for p in branch.special_points], rigid, atol=2e-6)
 
 
-@pytest.mark.parametrize("exponent", [4.0, 6.0])
+@pytest.mark.parametrize("exponent", [long(4.0), 6.0])
 def test_a_fold_under_contact_can_be_followed(exponent):
     branch = mc.continue_equilibria(mc.Mechanism.from_xml(model(exponent)), "M", bounds=(-60, 60))
     locus = mc.continue_special(branch.point("LP1"), "load_factor", bounds=(0.9, 1.1))

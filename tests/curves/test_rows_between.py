@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from problems.marks import long
 from problems.mechanisms import branch_of, column, scaled
 from problems.reference import BOUNDS, START
 from problems.rowmodels import BALL, CROSSED
@@ -31,7 +32,7 @@ def distances(points, polyline):
     return np.array(found)
 
 
-@pytest.mark.parametrize("chord", [1e-4, 3e-6])
+@pytest.mark.parametrize("chord", [long(1e-4), 3e-6])
 @pytest.mark.parametrize(
     ("model", "k_j"), [("overcentre", 1e3), ("overcentre", 1e6), ("nose_gear", 1e3), ("nose_gear_full", 1e3)]
 )

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+import pytest
 from PIL import Image
 
 import mjcont as mc
@@ -13,6 +14,7 @@ import mjcont as mc
 README = Path(__file__).parent.parent.parent / "README.md"
 
 
+@pytest.mark.long
 def test_the_example_draws_cycles_and_a_resonance_that_are_checked(tmp_path, monkeypatch, capsys):
     blocks = re.findall(r"```python\n(.*?)```", README.read_text("utf-8"), re.S)
     (code,) = [block for block in blocks if "continue_cycles(" in block]

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from problems.fields import ab
 from problems.knownfields import run
+from problems.marks import long
 
 import mjcont as mc
 
@@ -150,7 +151,7 @@ def ab_times(size):
     return mc.continue_equilibria(field, "D", bounds=(0.0, 0.6))
 
 
-@pytest.mark.parametrize("size", [1e-3, 1e-2, 10.0, 1e2, 1e3])
+@pytest.mark.parametrize("size", [1e-3, *map(long, (1e-2, 10.0, 1e2, 1e3))])
 def test_points_and_coefficients_do_not_depend_on_the_units_of_the_state(size):
     plain, other = ab_times(1.0), ab_times(size)
     for one, two in zip(plain.special_points, other.special_points, strict=True):

@@ -47,6 +47,7 @@ def test_the_cusp_of_orbits_is_found(folds):
     assert folds.point("CPC1")["q"] == pytest.approx(0.0, abs=PLACE)
 
 
+@pytest.mark.long
 def test_doublings_lie_on_the_parabola():
     doubling = special(fork_along_a_parabola, 2, 0.1, "PD", turn=0.5)
     locus = mc.continue_special(doubling, "q", (-0.2, 0.2), ds_max=0.2)

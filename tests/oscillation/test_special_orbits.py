@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from problems.exactorbits import around, crossing, fork, ring
+from problems.marks import long
 
 import mjcont as mc
 
@@ -26,7 +27,7 @@ def only_point(curve):
     return point
 
 
-BOTH = pytest.mark.parametrize("forced", [pytest.param(False, marks=pytest.mark.long), True], ids=["free", "forced"])
+BOTH = pytest.mark.parametrize("forced", [long(False), True], ids=["free", "forced"])
 
 
 @BOTH
@@ -66,7 +67,7 @@ def test_an_orbit_doubles_its_period(forced):
 
 
 @BOTH
-@pytest.mark.parametrize("omega", [0.13, 0.31, 0.47])
+@pytest.mark.parametrize("omega", [long(0.13), 0.31, long(0.47)])
 def test_a_torus_is_born(forced, omega):
     point = only_point(followed(ring(omega), 3, forced))
     assert point.kind == "NS"
@@ -77,7 +78,7 @@ def test_a_torus_is_born(forced, omega):
 
 
 @BOTH
-@pytest.mark.parametrize(("omega", "order"), [(0.5, 2), (1.0 / 3.0, 3), (0.25, 4), (1.0, 1)])
+@pytest.mark.parametrize(("omega", "order"), [(0.5, 2), long(1.0 / 3.0, 3), long(0.25, 4), (1.0, 1)])
 def test_a_strong_resonance_is_named(forced, omega, order):
     """At 1:2 det(M + I) touches zero and changes no sign, at 1:1 det(M - I)."""
     point = only_point(followed(ring(omega, 0.1), 3, forced))

@@ -14,6 +14,7 @@ from functools import cache
 import numpy as np
 import pytest
 from problems import reference
+from problems.marks import long
 from problems.reference import PAPER, PAPER_FOLDS
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
@@ -43,10 +44,10 @@ def script(figure):
 @pytest.mark.parametrize(
     ("figure", "holding"),
     [
-        pytest.param(2, [True] * 5, marks=pytest.mark.long),
-        (4, [True] * 5),
-        pytest.param(7, [True] * 4, marks=pytest.mark.long),
-        pytest.param(8, [True] * 5, marks=pytest.mark.long),
+        long(2, [True] * 5),
+        long(4, [True] * 5),
+        long(7, [True] * 4),
+        long(8, [True] * 5),
     ],
 )
 def test_findings_of_the_mechanism_figures(figure, holding, tmp_path):
