@@ -34,6 +34,12 @@ def test_many_random_fields_have_the_points_and_the_stability_that_they_are_know
     go(range(first, first + BLOCK))
 
 
+@pytest.mark.parametrize("seed", [84, 530, 531])
+def test_points_beside_each_other_are_told_apart_or_as_one_wherever_a_step_ends(seed):
+    """Branch points 3e-5 apart; two in one place, and two Hopf points, where a step ends within rounding of them."""
+    assert run(seed) == []
+
+
 # -- two points within one step ---------------------------------------------------------------------------------
 
 

@@ -87,7 +87,7 @@ class Balance:
         while i < len(nodes) - 1:
             a, b = nodes[i], nodes[i + 1]
             judged = self._judged(nodes, i)
-            middle = None if isinstance(judged, Piece) else self._middle(a, b, judged.at)
+            middle = None if isinstance(judged, Piece) else self._middle(a, b, judged)
             if middle is None or isinstance(judged, Piece):
                 piece = judged if isinstance(judged, Piece) else Piece(a, b)
                 beside = piece.together > 1 or any(a is m for m in multiple)
@@ -95,34 +95,28 @@ class Balance:
                 i += 1
                 continue
             nodes.insert(i + 1, middle)
-            held = self._held(a, middle, b, judged.met)
-            if held:  # nothing before it in this piece: the first two are looked at first
+            held = _held(a, middle, b, judged.met)
+            if held > 1 or (held and not judged.met[0].crosses):  # nothing lies before it in this piece
                 found.append(Piece(a, middle, held, judged.met[0].oscillates, True))
                 middle.sign = b.sign
                 multiple.append(middle)
                 i += 1
         return found
 
-    @staticmethod
-    def _held(a: CurvePoint, middle: CurvePoint, b: CurvePoint, met: Sequence[Meeting]) -> int:
-        """Return how many eigenvalues that reach the axis a point between two others holds there, 0 for one alone."""
-        if not met:
-            return 0
-        every = [m for p in (a, middle, b) if (m := motion_at(p)) is not None]
-        counts = [m.oscillating if met[0].oscillates else m.held for m in every]
-        more = counts[1] - max(counts[0], counts[2])
-        return more if more > 1 or (more == 1 and not met[0].crosses) else 0
+    def _middle(self, a: CurvePoint, b: CurvePoint, cut: _Cut) -> CurvePoint | None:
+        """Return the point of the curve at a cut, or near it, None where there is none.
 
-    def _middle(self, a: CurvePoint, b: CurvePoint, part: float) -> CurvePoint | None:
-        """Return the point of the curve at a part of a piece, or near it, None where there is none.
-
-        At a multiple point itself there is no tangent.
+        At a multiple point itself there is no tangent. Where some of those that meet there are on the axis and others
+        are not, rounding decides between them.
         """
+        kind = [m for m in cut.met if m.oscillates == cut.met[0].oscillates]
         for aside in (0.0, -_ASIDE, _ASIDE):
             self._made += 1
-            place = part + aside * min(part, 1.0 - part)
+            place = cut.at + aside * min(cut.at, 1.0 - cut.at)
             middle = advance(self.system, a, place * (b.s - a.s), self.settings)
-            if not isinstance(middle, Refused) and a.s < middle.s < b.s and motion_at(middle) is not None:
+            if isinstance(middle, Refused) or not a.s < middle.s < b.s or motion_at(middle) is None:
+                continue
+            if not 0 < _held(a, middle, b, cut.met) < len(kind):
                 return middle
         return None
 
@@ -159,6 +153,15 @@ class Balance:
             if share > worst:
                 worst, where = share, float(t)
         return where
+
+
+def _held(a: CurvePoint, middle: CurvePoint, b: CurvePoint, met: Sequence[Meeting]) -> int:
+    """Return how many of the eigenvalues that meet the axis a point between two others holds there."""
+    if not met:
+        return 0
+    every = [m for p in (a, middle, b) if (m := motion_at(p)) is not None]
+    counts = [m.oscillating if met[0].oscillates else m.held for m in every]
+    return max(counts[1] - max(counts[0], counts[2]), 0)
 
 
 def _passed(a: CurvePoint, b: CurvePoint, oscillates: bool) -> int:
