@@ -18,7 +18,9 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import System
+from mjcont.numerics.points.balance import MULTIPLE
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.search.sphere import ways_through
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.step.hermite import lagrange
@@ -30,6 +32,8 @@ from mjcont.results.points import Point, SpecialPoint
 from mjcont.results.search import same_spectrum
 
 _OFFSET = 1e-2
+# first steps along a branch from a point on it, one way and the other
+_Way = tuple[Array, Array | None]
 _SAME = 1e-5
 # arclengths are sums over steps: those of halves that are images of each other agree to this part
 _AS_LONG = 1e-3
@@ -67,7 +71,7 @@ def switch_branches(
     settings = make_settings(options)
     system = _system_at(point, bounds)
     with clock.limited(settings.max_seconds):
-        found = [_through(point, system, t, settings, zeros, progress) for t in point.vectors.get("tangents", ())]
+        found = [_through(point, system, way, settings, zeros, progress) for way in _ways(point, system)]
     return [b for b in found if b is not None]
 
 
@@ -81,9 +85,20 @@ def _system_at(point: SpecialPoint, bounds: tuple[float, float] | None) -> Syste
     return System(problem, problem.values(point.parameters), [Free(name, low, high, problem.parameter(name).unit)])
 
 
-def _leave(system: System, x: Array, y: Array, tangent: Array, settings: Settings) -> CurvePoint | Refused:
-    """Return a point a small step along a tangent from a branch point."""
-    x1, y1 = system.move(x, y, _OFFSET * tangent)
+def _ways(point: SpecialPoint, system: System) -> list[_Way]:
+    """Return first steps along the branches through a branch point: one way, and the other where one leaves it.
+
+    Those through a multiple point are searched for.
+    """
+    if point.coefficients.get("type") != MULTIPLE:
+        return [(_OFFSET * t, -_OFFSET * t) for t in point.vectors.get("tangents", ())]
+    vanishing = int(point.coefficients.get("vanishing", 2))
+    return ways_through(system, point.state, system.start_y(), vanishing, _OFFSET)
+
+
+def _leave(system: System, x: Array, y: Array, step: Array, settings: Settings) -> CurvePoint | Refused:
+    """Return a point of the curve a small step from a branch point."""
+    (x1, y1), tangent = system.move(x, y, step), step / np.linalg.norm(step)
     c = correct(system, x1, y1, tangent, None, settings)
     if c.failure is not None:
         return c.failure
@@ -95,21 +110,24 @@ def _leave(system: System, x: Array, y: Array, tangent: Array, settings: Setting
 def _through(
     point: SpecialPoint,
     system: System,
-    tangent: Array,
+    way: _Way,
     settings: Settings,
     zeros: Zeros | None,
     progress: Progress | None,
 ) -> Branch | None:
-    """Return the branch through a branch point with a given tangent, or None if it cannot be entered."""
+    """Return the branch that leaves a branch point one way and the other, or None if it cannot be entered."""
     x, y = point.state, system.start_y()
     walker = equilibrium_walker(system, settings, zeros or {})
     halves: list[Trace] = []
-    for sign in (-1.0, 1.0):
+    for step in way[::-1]:
+        if step is None:
+            halves.append(Trace([], end=End(Status.NO_START, f"no branch leaves {point.label} the other way")))
+            continue
         if halves and halves[0].end.status in (Status.CLOSED, Status.INTERRUPTED):
             halves.append(Trace([], end=halves[0].end))
             break
         try:
-            first = _leave(system, x, y, sign * tangent, settings)
+            first = _leave(system, x, y, step, settings)
         except clock.TimeUp:
             halves.append(Trace([], end=time_up(settings)))
             continue
@@ -121,6 +139,7 @@ def _through(
         return None
     local = system.local(x, y)
     with clock.unlimited():
+        tangent = way[0] / np.linalg.norm(way[0])
         bp_point = CurvePoint(x, y, tangent, 0.0, local, system.jacobian(local, y))
     known = {k: v for k, v in {**point.coefficients, **point.vectors}.items() if k in ("type", "c", "tangents", "w")}
     located = Located("BP", bp_point, point.tolerance, point.converged, known)
@@ -237,12 +256,12 @@ def _new_branches(
     """Yield the branches through a point that none of `branches` contains."""
     settings, system = make_settings(options), _system_at(point, bounds)
     x, y = point.state, system.start_y()
-    for tangent in point.vectors.get("tangents", ()):
-        sides = [_leave(system, x, y, sign * tangent, settings) for sign in (1.0, -1.0)]
+    for way in _ways(point, system):
+        sides = [_leave(system, x, y, step, settings) for step in way if step is not None]
         probes = [_as_point(system, s) for s in sides if not isinstance(s, Refused)]
         if probes and all(any(covers(b, p) for b in branches) for p in probes):
             continue
-        branch = _through(point, system, tangent, settings, zeros, progress)
+        branch = _through(point, system, way, settings, zeros, progress)
         if branch is not None:
             yield branch
 

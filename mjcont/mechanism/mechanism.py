@@ -21,7 +21,6 @@ from mjcont.errors import ParameterError, unknown_name
 from mjcont.mechanism.core import ENGINE, copy_model, evaluation_copy, is_constrained, owned_copy
 from mjcont.mechanism.declarations import Declaration
 from mjcont.mechanism.geometry import Geometry, refuse_overlap
-from mjcont.mechanism.manifold import Manifold
 from mjcont.mechanism.observables import Observed, model_observables
 from mjcont.mechanism.parameters import collect_parameters, declared_parameter
 from mjcont.mechanism.sharing import Shareable
@@ -30,6 +29,7 @@ from mjcont.mechanism.zeromodes import whole as rigid
 from mjcont.mechanism.zeromodes.parts import Held
 from mjcont.models import features, loading
 from mjcont.models.actuators import bush_names
+from mjcont.models.manifold import Manifold
 from mjcont.models.states import checked_state, keyframes, model_name, state_labels, state_scale
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.model import Model

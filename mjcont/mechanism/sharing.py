@@ -12,8 +12,8 @@ import mujoco
 
 from mjcont.mechanism.core import Core, copy_model, simulation_copy
 from mjcont.mechanism.geometry import Geometry
-from mjcont.mechanism.manifold import Manifold
 from mjcont.mechanism.writer import FieldWriter
+from mjcont.models.manifold import Manifold
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.quantities import Observable, Parameter
 from mjcont.results.text import ParameterTable

@@ -27,8 +27,8 @@ _NOISE = 1e-6
 _FIRM = 3.0
 LARGEST_ERROR = 1e-7
 _LARGEST_STEP = 2.0
-# steps that grow so twice in a row are not those of noise: one was small by chance, as where a slope changes its sign
-_GROWS = 1.5
+# steps that grow twice in a row, and so much, are not those of noise: one was small by chance, between two solutions
+_GROWS = 2.0
 _DIVERGED = Refused(Why.DIVERGED, "the corrector diverged")
 _NEWTON_DIVERGED = Refused(Why.DIVERGED, "Newton's method diverged")
 _STANDS_STILL = Refused(Why.UNSETTLED, "the corrector stands still")
@@ -252,7 +252,7 @@ def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int =
         local = system.local(x, y)
         if size < best:
             best, best_at, since_best = size, (x, y), 0
-        elif since_best == 1 and size > _GROWS * last > _GROWS**2 * best:  # it has not been there yet
+        elif since_best == 1 and size > max(last, _GROWS * best):  # it has not been there yet
             best, best_at, since_best = size, (x, y), 0
         else:
             since_best += 1

@@ -24,6 +24,8 @@ from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.spectra.tracks import Meeting, Tracks, interpolated, meetings, motion_at, tracks
 from mjcont.numerics.step.arclength import BEFORE, CurvePoint, advance
 
+# the type of a point at which several eigenvalues reach the axis
+MULTIPLE = "multiple"
 # pieces shorter than this are not halved, nor more often than this in a step
 _ALONE, _MOST = 2e-8, 80
 # no piece ends nearer to another's end than this part; near a point that is found already nothing is looked for
@@ -160,7 +162,8 @@ def _held(a: CurvePoint, middle: CurvePoint, b: CurvePoint, met: Sequence[Meetin
     if not met:
         return 0
     every = [m for p in (a, middle, b) if (m := motion_at(p)) is not None]
-    counts = [m.oscillating if met[0].oscillates else m.held for m in every]
+    size = max((m.size for m in every), default=0.0)
+    counts = [m.oscillating if met[0].oscillates else m.vanishing(size) for m in every]
     return max(counts[1] - max(counts[0], counts[2]), 0)
 
 
@@ -175,7 +178,20 @@ def multiple(piece: Piece) -> Located:
     kind, what = ("HB", "pairs of eigenvalues reach the axis") if piece.oscillate else ("BP", "eigenvalues vanish")
     count = f"{piece.together} {what} together" if piece.together > 1 else "an eigenvalue touches the axis"
     note = f"{count}: a point of higher multiplicity, bracketed only"
-    return Located(kind, piece.new, piece.new.s - piece.old.s, False, {"type": "multiple"}, note)
+    data = {"type": MULTIPLE, **({"vanishing": max(piece.together, 1)} if kind == "BP" else {})}
+    return Located(kind, piece.new, _known_to(piece), False, data, note)
+
+
+def _known_to(piece: Piece) -> float:
+    """Return to what the end of a piece is a multiple point: all of the piece, or what lies within the noise there.
+
+    What vanishes does so linearly, or quadratically where it only touches the axis.
+    """
+    before, at = motion_at(piece.old), motion_at(piece.new)
+    length, share = piece.new.s - piece.old.s, 1.0
+    if before is not None and at is not None and not piece.oscillate and at.vanishing(before.size):
+        share = before.noise * before.size / max(float(np.abs(before.own).min()), 1e-300)
+    return length * min(math.sqrt(share), 1.0)
 
 
 @dataclass(frozen=True, slots=True)

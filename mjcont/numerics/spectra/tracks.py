@@ -26,6 +26,8 @@ from mjcont.numerics.step.notes import Note
 
 # noise of eigenvalues in parts of the matrix: of differences of fourth order, of second order, and of eigenvalues
 _FOURTH, _SECOND, _OWN = 1e-11, 1e-10, 1e-12
+# no eigenvalue vanishes where the inverse is that small, in parts of the matrix
+_FAR = 1e-8
 # eigenvectors more nearly orthogonal to their left ones than this give no slope
 _DEFECTIVE = 1e-5
 # unknowns up to which eigenvalues are followed
@@ -61,13 +63,29 @@ class Motion:
     Attributes
     ----------
     jac : (n, n) df/dx.
-    held : how many eigenvalues of it are zero as far as can be told.
+    own : (n,) its eigenvalues, or a number that none is smaller than.
+    noise : what is nothing in parts of the largest entry of J.
     modes : those of the first-order form, None where no oscillation can gain energy.
     """
 
     jac: Array
-    held: int
+    own: Array
+    noise: float
     modes: Modes | None
+
+    @property
+    def size(self) -> float:
+        """The largest entry of J."""
+        return float(np.abs(self.jac).max())
+
+    @property
+    def held(self) -> int:
+        """How many eigenvalues of J are zero as far as can be told."""
+        return self.vanishing(self.size)
+
+    def vanishing(self, size: float) -> int:
+        """Return how many eigenvalues of J are nothing beside matrices whose largest entries are `size`."""
+        return int(np.count_nonzero(np.abs(self.own) <= self.noise * size))
 
     @property
     def oscillating(self) -> int:
@@ -91,10 +109,10 @@ def _motion(point: CurvePoint) -> Motion | None:
     if not isinstance(jac, np.ndarray) or len(jac) > _MANY or not np.all(np.isfinite(jac)):
         return None
     second = point.local.problem.second_order
-    floor = (_SECOND if second else _FOURTH) * float(np.abs(jac).max())
+    noise = _SECOND if second else _FOURTH
     if negative_stiffness(point) is not None or (second and symmetric(jac) and spectrum_of(point).conservative):
         squares = np.linalg.eigvalsh(0.5 * (jac + jac.T))
-        return Motion(jac, int(np.count_nonzero(np.abs(squares) <= floor)), None)
+        return Motion(jac, squares, noise, None)
     matrix = jac
     if second:
         pencil = point.local.pencil
@@ -104,24 +122,26 @@ def _motion(point: CurvePoint) -> Motion | None:
         return None
     try:
         values, left, right = linalg.eig(matrix, left=True, right=True)
-        held = int(np.count_nonzero(np.abs(values) <= floor)) if not second else _vanishing(jac, floor)
+        own = _smallest(jac) if second else values
     except (linalg.LinAlgError, ValueError):
         return None
     products = np.einsum("ij,ij->j", left.conj(), right)
     sure = np.abs(products) > _DEFECTIVE
     left = left / np.where(sure, products, 1.0).conj()
-    noise = (_SECOND if second else _FOURTH) * np.abs(matrix).max() + _OWN * np.abs(values)
-    return Motion(jac, held, Modes(matrix, values, right, left, noise, sure))
+    unsure = noise * np.abs(matrix).max() + _OWN * np.abs(values)
+    return Motion(jac, own, noise, Modes(matrix, values, right, left, unsure, sure))
 
 
-def _vanishing(matrix: Array, floor: float) -> int:
-    """Return how many eigenvalues of a matrix are at most a floor in size; none is below 1 / |inverse|."""
+def _smallest(matrix: Array) -> Array:
+    """Return the eigenvalues of a matrix, or 1 / |inverse| where it is not small: none is below that."""
     try:
-        if float(np.linalg.norm(np.linalg.inv(matrix))) * floor < 1.0:
-            return 0
-    except np.linalg.LinAlgError:
+        least = 1.0 / float(np.linalg.norm(np.linalg.inv(matrix)))
+        if least > _FAR * float(np.abs(matrix).max()):
+            return np.array([least])
+    except (np.linalg.LinAlgError, ZeroDivisionError):
         pass
-    return int(np.count_nonzero(np.abs(linalg.eigvals(matrix)) <= floor))
+    found: Array = linalg.eigvals(matrix)
+    return found
 
 
 @dataclass(frozen=True, slots=True)
