@@ -13,7 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mjcont.numerics.equations.algebra import inverses
+from mjcont.numerics.equations.newton import correct, length
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System, equation_sizes
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.step.hermite import arc, lagrange_each, mixed, node_windows
@@ -26,6 +28,8 @@ _SHORT, _TURNED = 1e-7, 0.6
 # rows that are corrected together at least, and entries of their matrices at most
 _TOGETHER, _ENTRIES = 32, 2**19
 _ROUNDS = 4
+# rows of those that are corrected together for which derivatives are taken where they do not settle without
+_RENEWED = 16
 # corrections: the largest first one in parts of the gap, the contraction at worst, the largest last one, what may
 # remain after it, and below what size corrections that no longer contract are noise; scaled residuals at last
 _FIRST, _CONTRACTION, _LAST, _REMAINS, _NOISE, _ERROR = 0.02, 0.3, 1e-11, 1e-13, 1e-9, 5e-13
@@ -138,7 +142,13 @@ def _settled(system: System, nodes: _Nodes, windows: Array, after: Array, fracti
     matrix = np.empty((len(after), n + 1, n + 1))
     matrix[:, n], matrix[:, :n] = nodes.tangents[after], mixed(weights, nodes.jacs, windows)
     inverse = inverses(matrix)[:, :, :n]
+    begun = states.copy(), coordinates.copy()
     errors, kept = _corrected(system, states, coordinates, inverse, equation_sizes(matrix[:, :n]), _FIRST * gaps)
+    for i in np.flatnonzero(~kept)[:_RENEWED].tolist():  # interpolated matrices are too far off: derivatives there
+        x, y = begun[0][i], begun[1][i]
+        c = correct(system, x, y, nodes.tangents[after[i]], None, Settings())
+        if c.failure is None and length(system.difference(c.x, c.y, x, y)) <= _FIRST * gaps[i]:
+            states[i], coordinates[i], errors[i], kept[i] = c.x, c.y, c.error, True
     return Between(after[kept], fraction[kept], states[kept], coordinates[kept], errors[kept])
 
 
