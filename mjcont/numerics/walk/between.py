@@ -147,7 +147,8 @@ def _settled(system: System, nodes: _Nodes, windows: Array, after: Array, fracti
     for i in np.flatnonzero(~kept)[:_RENEWED].tolist():  # interpolated matrices are too far off: derivatives there
         x, y = begun[0][i], begun[1][i]
         c = correct(system, x, y, nodes.tangents[after[i]], None, Settings())
-        if c.failure is None and length(system.difference(c.x, c.y, x, y)) <= _FIRST * gaps[i]:
+        near = length(system.difference(c.x, c.y, x, y)) <= _FIRST * gaps[i]
+        if c.failure is None and c.error <= _ERROR and near:
             states[i], coordinates[i], errors[i], kept[i] = c.x, c.y, c.error, True
     return Between(after[kept], fraction[kept], states[kept], coordinates[kept], errors[kept])
 
