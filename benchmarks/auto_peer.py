@@ -53,7 +53,7 @@ def missing() -> str | None:
 
 
 @cache
-def _program(source: str) -> Path:
+def built(source: str) -> Path:
     """Build a problem and return its executable; it lives as long as this process."""
     folder = Path(tempfile.mkdtemp(prefix="bench-auto-"))
     package = Path(mujoco.__file__).parent
@@ -80,7 +80,7 @@ class AutoPeer:
         self.folder = Path(tempfile.mkdtemp(prefix="bench-case-"))
         self.weight, self.ds_max = weight, ds_max
         plain = not isinstance(case.problem, mc.Mechanism)
-        self.program = _program("reaction" if plain else "mechanism")
+        self.program = built("reaction" if plain else "mechanism")
         self.states = case.problem.n if plain else 2 * case.problem.n
         if not plain:
             self._prepare()

@@ -8,6 +8,7 @@ from typing import Any
 from benchmarks.book import FAILED, MISSING
 
 POINTS, CHAIN, DIAGRAM, MEMORY, JOBS = "points [us]", "chain [us]", "diagram [ms]", "memory [MB]", "jobs [s]"
+ORBITS = "orbits [ms]"
 
 
 class Table:
@@ -21,6 +22,8 @@ class Table:
             return [f"{kind:<18}{peers}   mujoco/algebra/python   all eigenvalues   no rows between"]
         if section == DIAGRAM:
             return [f"{'a diagram, chord [ms]':<26}{'mjcont':>9}{'AUTO':>9}{'ratio':>7}   points   chord error"]
+        if section == ORBITS:
+            return [f"{'an orbit, CPU [ms]':<26}{'mjcont':>9}{'AUTO':>9}{'ratio':>7}   evaluations"]
         return [section]
 
     def row(self, section: str, name: str, row: Any) -> Sequence[str]:
@@ -29,6 +32,8 @@ class Table:
             lines = [_point(name, row)] if isinstance(row, dict) else [f"{name} {row}"]
         elif section == DIAGRAM:
             lines = [_diagram(name, row)]
+        elif section == ORBITS:
+            lines = [_orbit(name, row)]
         else:
             lines = [f"  {name:<20}{row:9.3f}"]
         if isinstance(row, dict):
@@ -59,3 +64,8 @@ def _diagram(name: str, row: dict[str, Any]) -> str:
         f"{name:<26}{row['mjcont']:9.2f}{row['AUTO']:9.2f}{row['mjcont'] / row['AUTO']:7.2f}   "
         f"{points['mjcont']}/{points['AUTO']}   {error['mjcont']:.1e}/{error['AUTO']:.1e}"
     )
+
+
+def _orbit(name: str, row: dict[str, Any]) -> str:
+    counts, times = row["evaluations"], f"{row['mjcont']:9.2f}{row['AUTO']:9.2f}{row['mjcont'] / row['AUTO']:7.2f}"
+    return f"{name:<26}{times}   {counts['mjcont']:.0f}/{counts['AUTO']:.0f}"

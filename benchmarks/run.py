@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks import auto_peer, cases, jobs, peers
+from benchmarks import auto_peer, cases, jobs, orbits, peers
 from benchmarks.book import FAILED, MISSING, Book, Job, Missing
 from benchmarks.chords import chord_error
-from benchmarks.layout import CHAIN, DIAGRAM, JOBS, MEMORY, POINTS, Table
+from benchmarks.layout import CHAIN, DIAGRAM, JOBS, MEMORY, ORBITS, POINTS, Table
 from benchmarks.measure import machine, medians, seconds
 from benchmarks.points import Floor, growth, per_point, split
 
@@ -149,6 +149,9 @@ def plan(quick: bool, repeats: int) -> Iterator[Job]:
         diagrams = Diagrams(name, repeats)
         for chord in _DEFAULT if quick else _CHORDS:
             yield Job(DIAGRAM, f"{name}, {chord:.0e}", partial(diagrams.compare, chord))
+    for name in orbits.CASES:
+        if not (quick and name == "nose gear full"):
+            yield Job(ORBITS, name, partial(orbits.compare, name, min(repeats, 5)))
     if quick:
         return
     yield Job(MEMORY, "chain 80", lambda tell: jobs.memory(80))

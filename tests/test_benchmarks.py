@@ -18,7 +18,7 @@ import mjcont as mc
 sys.path.insert(0, str(Path(__file__).parent.parent))
 from benchmarks import auto_peer, run  # noqa: E402
 from benchmarks.book import Book, Job, Missing  # noqa: E402
-from benchmarks.layout import DIAGRAM, POINTS, Table  # noqa: E402
+from benchmarks.layout import DIAGRAM, ORBITS, POINTS, Table  # noqa: E402
 from benchmarks.measure import medians  # noqa: E402
 
 
@@ -118,6 +118,12 @@ def test_a_run_that_fails_leaves_the_figures_of_the_others():
     first, second = Table().row(POINTS, "case", row)
     assert first.split()[:4] == ["case", "2.0", "4.0", "0.50"]
     assert second.strip() == "theirs not measured: RuntimeError: it stopped"
+
+
+def test_an_orbits_row_states_times_ratio_and_evaluations():
+    row = {"mjcont": 6.0, "AUTO": 12.0, "evaluations": {"mjcont": 2160, "AUTO": 5100.0}}
+    (line,) = Table().row(ORBITS, "case", row)
+    assert line.split() == ["case", "6.00", "12.00", "0.50", "2160/5100"]
 
 
 def test_the_quick_plan_is_part_of_the_whole_one():
