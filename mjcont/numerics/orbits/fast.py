@@ -29,6 +29,7 @@ from mjcont.numerics.equations.algebra import eigenvalues as eigenvalues_of
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.collocation import Blocks, Orbits
 from mjcont.numerics.orbits.scheme import GAUSS, RADAU
+from mjcont.numerics.step.hermite import lagrange_each
 
 # |lambda| h from which on a scheme of degree 5 errs by 1e-6 in a period, and the part of it that is to be exceeded all
 # along the orbit; factor between the sizes of fast and slow modes
@@ -139,8 +140,9 @@ def _magnus(orbits: Orbits, matrices: Array, lengths: Array, fastest: Array) -> 
     offsets = (-0.1 * _ROOT, 0.0, 0.1 * _ROOT)
     for i, count in enumerate(np.ceil(lengths * fastest / _STEP).astype(int).tolist()):
         h, middles = lengths[i] / count, (np.arange(count) + 0.5) / count
+        rows = np.broadcast_to(nodes, (count, len(nodes)))
         before, here, after = (
-            np.einsum("kj,jab->kab", _lagrange(nodes, middles + side / count), known[i]) for side in offsets
+            np.einsum("kj,jab->kab", lagrange_each(rows, middles + side / count), known[i]) for side in offsets
         )
         found.append(_series(h, before, here, after))
     return exponentials(np.concatenate(found))
@@ -157,17 +159,6 @@ def _series(h: float, before: Array, here: Array, after: Array) -> Array:
 
 def _commutator(a: Array, b: Array) -> Array:
     found: Array = a @ b - b @ a
-    return found
-
-
-def _lagrange(nodes: Array, places: Array) -> Array:
-    """Return the values of Lagrange's polynomials of nodes (m,) at places (k,), (k, m)."""
-    apart = nodes[:, None] - nodes
-    np.fill_diagonal(apart, 1.0)
-    parts = (places[:, None, None] - nodes) / apart
-    at = np.arange(len(nodes))
-    parts[:, at, at] = 1.0
-    found: Array = parts.prod(axis=2)
     return found
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.path import Path
+from mjcont.numerics.step.hermite import lagrange_each
 
 # places at which an interval's polynomial is read for extremes
 _READ = 33
@@ -63,7 +64,7 @@ def extremes(path: Path, reading: Reading) -> tuple[Array, Array]:
     """Return the largest and smallest values of all observables, of the polynomials through what is read."""
     nodes, values = _pieces(path, reading)
     fine = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0.0, 1.0, _READ))
-    weights = np.array([_lagrange(nodes, t) for t in fine])
+    weights = _weights(nodes, fine)
     read = np.einsum("tl,ilo->ito", weights, values)
     return _peaks(read, fine, values, nodes), -_peaks(-read, fine, -values, nodes)
 
@@ -77,31 +78,29 @@ def _pieces(path: Path, reading: Reading) -> tuple[Array, Array]:
     return np.append(0.0, nodes), np.concatenate([reading.ends[:-1, None], values], axis=1)
 
 
-def _lagrange(nodes: Array, at: float) -> Array:
-    apart = nodes[:, None] - nodes
-    np.fill_diagonal(apart, 1.0)
-    parts = (at - nodes) / apart
-    np.fill_diagonal(parts, 1.0)
-    found: Array = parts.prod(axis=1)
-    return found
+def _weights(nodes: Array, places: Array) -> Array:
+    """Return the weights of the values at nodes (m,) in the polynomial at places (..., m)."""
+    rows = np.broadcast_to(nodes, (places.size, len(nodes)))
+    return lagrange_each(rows, places.ravel()).reshape(*places.shape, len(nodes))
 
 
 def _peaks(read: Array, fine: Array, values: Array, nodes: Array) -> Array:
     """Return the largest value of each polynomial, by parabolas through the largest of what is read."""
-    found = np.empty(read.shape[2])
-    for o in range(read.shape[2]):
-        i, t = divmod(int(np.argmax(read[:, :, o])), read.shape[1])
-        place, best = float(fine[t]), float(read[i, t, o])
-        reach = float(fine[min(t + 1, _READ - 1)] - fine[max(t - 1, 0)]) / 2.0
-        for _ in range(3):
-            around = np.clip(place + reach * np.array([-1.0, 0.0, 1.0]), 0.0, 1.0)
-            y = np.array([_lagrange(nodes, a) @ values[i, :, o] for a in around])
-            best = max(best, float(y.max()))
-            bend = np.polyfit(around - place, y, 2) if around[0] < around[1] < around[2] else np.zeros(3)
-            if not bend[0] < 0.0:
-                break
-            place = float(np.clip(place - bend[1] / (2.0 * bend[0]), 0.0, 1.0))
-            best = max(best, float(_lagrange(nodes, place) @ values[i, :, o]))
-            reach *= 0.1
-        found[o] = best
+    every = np.arange(read.shape[2])
+    i, t = np.divmod(read.reshape(-1, len(every)).argmax(axis=0), read.shape[1])
+    place, best, own = fine[t], read[i, t, every], values[i, :, every]
+    reach = 0.5 * (fine[np.minimum(t + 1, _READ - 1)] - fine[np.maximum(t - 1, 0)])
+    for _ in range(3):
+        around = np.clip(place[:, None] + reach[:, None] * np.array([-1.0, 0.0, 1.0]), 0.0, 1.0)
+        y = np.einsum("okm,om->ok", _weights(nodes, around), own)
+        best = np.maximum(best, y.max(axis=1))
+        widths = np.diff(around, axis=1)
+        rises = np.diff(y, axis=1) / np.where(widths > 0.0, widths, np.inf)
+        bend = (rises[:, 1] - rises[:, 0]) / widths.sum(axis=1)
+        slope = rises[:, 0] + bend * (2.0 * place - around[:, 0] - around[:, 1])
+        bends = (bend < 0.0) & (widths > 0.0).all(axis=1)  # the others are at an end, where nothing is larger inside
+        place = np.clip(place - np.where(bends, slope / np.where(bends, 2.0 * bend, 1.0), 0.0), 0.0, 1.0)
+        best = np.maximum(best, np.einsum("om,om->o", _weights(nodes, place), own))
+        reach = 0.1 * reach
+    found: Array = best
     return found
