@@ -44,7 +44,7 @@ class _Bends:
         orbits, self.scale = orbits_of(local), local.problem.state_scale
         step = along * self.scale
         size = float(np.abs(step[: orbits.ends].reshape(-1, orbits.flow.d) / orbits.sizes).max())
-        e = _MOVED / max(size, 1e-300)
+        e = _MOVED / max(size, 1e-100)
         far_ahead, ahead, behind, far_behind = (_matrix(local, local.x + s * e * step) for s in (2.0, 1.0, -1.0, -2.0))
         self.first = (8.0 * (ahead - behind) - (far_ahead - far_behind)) / (12.0 * e)
         self.second = (16.0 * (ahead + behind) - (far_ahead + far_behind) - 30.0 * local.jac) / (12.0 * e**2)
