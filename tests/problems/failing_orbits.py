@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from problems.failing import FIELDS
 
 import mjcont as mc
 from mjcont.numerics.equations.free import Free
@@ -15,7 +14,6 @@ from mjcont.numerics.equations.newton import Corrected
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.orbits import (
-    collocation,
     defining,
     detectors,
     fast,
@@ -34,6 +32,7 @@ from mjcont.numerics.orbits.path import Path
 from mjcont.numerics.orbits.scheme import scheme
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.walk.steps import End
+from problems.failing import FIELDS
 
 ENTRIES = {"nan": math.nan, "infinite": math.inf, "singular": 1.0, "huge": 1e300}
 
