@@ -28,6 +28,7 @@ class Rows:
         self._qpos = self._batch.bind("qpos")
         self._qvel = self._batch.bind("qvel")
         self._ctrl = self._batch.bind("ctrl")
+        self._act = self._batch.bind("act") if model.na else None
         self._inputs: list[tuple[Array, Array]] | None = None
         self._forces = self._batch.bind("qfrc_smooth")
         self._acceleration = self._batch.bind("qacc")
@@ -35,11 +36,17 @@ class Rows:
         self._told_apart = {f: self._batch.bind(f) for f in kinks.fields} if kinks is not None else {}
 
     def forward(
-        self, qpos: Array, qvel: Array | None, writer: FieldWriter, ctrl: Array | None = None
+        self,
+        qpos: Array,
+        qvel: Array | None,
+        writer: FieldWriter,
+        ctrl: Array | None = None,
+        act: Array | None = None,
     ) -> Array:
         """Evaluate the rows' states with the writer's inputs and return qfrc_smooth, a live view (m, nv).
 
-        `ctrl` (m, nu) takes the place of the writer's controls. Rows that MuJoCo cannot evaluate so are NaN.
+        `ctrl` (m, nu) takes the place of the writer's controls, `act` (m, followers) that of activations at rest. Rows
+        that MuJoCo cannot evaluate so are NaN.
         """
         if self._version != writer.version:
             self._batch.set_models(self._model)
@@ -51,6 +58,8 @@ class Rows:
         writer.inputs.put_rows(self._inputs)
         if ctrl is not None:
             self._ctrl[:] = ctrl
+        if act is not None and self._act is not None:
+            self._act[:, writer.inputs.following] = act
         self._batch.forward()
         self._spoilt = self._warned.spoilt()
         return self._of_sound_rows(self._forces)
@@ -117,17 +126,26 @@ class ConstrainedRows:
                     out[i] = np.nan
         return out
 
-    def accelerations(self, qpos: Array, qvel: Array, writer: FieldWriter) -> Array:
-        """Return qacc for every row, (m, nv); `touched` then has the names of what carried load in any."""
-        m, d = self._model, self._data
-        out = np.empty((len(qpos), m.nv))
+    def accelerations(
+        self, qpos: Array, qvel: Array, writer: FieldWriter, act: Array | None = None
+    ) -> Array:
+        """Return qacc for every row, (m, nv); `touched` then has the names of what carried load in any.
+
+        With `act` (m, followers) the rates of these activations stand beside it, (m, nv + followers).
+        """
+        m, d, following = self._model, self._data, writer.inputs.following
+        out = np.empty((len(qpos), m.nv + (0 if act is None else len(following))))
         self.touched: list[frozenset[str]] = []
         writer.inputs.put(d)
         with quiet:
             for i, x in enumerate(qpos):
                 d.qpos[:], d.qvel[:], d.qacc_warmstart[:] = x, qvel[i], 0.0
+                if act is not None:
+                    d.act[following] = act[i]
                 mujoco.mj_forward(m, d)
-                out[i] = d.qacc if self._warned.spoilt() is None else np.nan
+                out[i, : m.nv], out[i, m.nv :] = d.qacc, d.act_dot[following] if act is not None else ()
+                if self._warned.spoilt() is not None:
+                    out[i] = np.nan
                 names = frozenset(_loaded(m, d)) if d.nefc else frozenset()
                 if self._kinks is not None:
                     names |= self._kinks.names(m, codes_at(self._kinks, m, d))

@@ -92,16 +92,25 @@ class Evaluator:
         """Whether the forces are smooth in pieces only."""
         return self._constrained is not None or self._kinks is not None
 
-    def accelerations(self, qpos: Array, qvel: Array, ctrl: Array | None = None) -> Array:
-        """Return qacc for every row, (m, nv); `ctrl` (m, nu) gives smooth models rows with controls of their own."""
+    def accelerations(
+        self, qpos: Array, qvel: Array, ctrl: Array | None = None, act: Array | None = None
+    ) -> Array:
+        """Return qacc for every row, (m, nv); `ctrl` (m, nu) gives smooth models rows with controls of their own.
+
+        `act` (m, followers) are activations that follow a control: their rates then stand beside qacc.
+        """
         self.count += len(qpos)
         if self.writer.failure:
-            return np.full((len(qpos), self.model.nv), np.nan)
+            return np.full((len(qpos), self.model.nv + (0 if act is None else act.shape[1])), np.nan)
         if self._constrained is not None:
-            return self._constrained.accelerations(qpos, qvel, self.writer)
+            return self._constrained.accelerations(qpos, qvel, self.writer, act)
         rows = self._last = self._rows(len(qpos))
-        rows.forward(qpos, qvel, self.writer, ctrl)
-        return rows.acceleration()
+        if act is None:
+            rows.forward(qpos, qvel, self.writer, ctrl)
+            return rows.acceleration()
+        changes = rows.field("act_dot")
+        rows.forward(qpos, qvel, self.writer, ctrl, act)
+        return np.hstack([rows.acceleration(), changes[:, self.writer.inputs.following]])
 
     def touched(self, count: int) -> list[frozenset[str]]:
         """Return the names of what was busy in each of the first `count` rows of the last accelerations."""

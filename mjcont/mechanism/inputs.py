@@ -83,6 +83,17 @@ class DataInputs:
         """Whether an activation follows a control."""
         return bool(len(self._follow[0]))
 
+    @property
+    def following(self) -> np.ndarray:
+        """Addresses of the activations that follow a control, and in motion have a course of their own."""
+        return self._follow[0]
+
+    @property
+    def resting(self) -> np.ndarray:
+        """What these activations are at rest."""
+        found: np.ndarray = self._fields["act"][self._follow[0]]
+        return found
+
     def reset(self, base: mujoco.MjModel) -> None:
         """Go back to the inputs of a model as loaded."""
         self.loaded = loaded_inputs(base)

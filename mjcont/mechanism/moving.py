@@ -1,6 +1,8 @@
 """A mechanism in motion: accelerations and their derivatives at many states, inputs differing from state to state.
 
-M(q) q'' = tau(q, v),   derivatives by centred differences in q and v, in batches of a fixed number of rows
+M(q) q'' = tau(q, v, a),  a' = g(a, input),   derivatives by centred differences, in batches of a fixed number of rows
+
+with activations a of actuators that follow their control (filters, muscles) where there are any.
 """
 
 from __future__ import annotations
@@ -11,7 +13,8 @@ import mujoco
 import numpy as np
 
 from mjcont.mechanism.mechanism import Mechanism
-from mjcont.numerics.equations.differences import FOURTH_ORDER, SECOND_ORDER, jacobian_steps
+from mjcont.models.actuators import actuator_name, actuator_of, follower, integrator
+from mjcont.numerics.equations.differences import FOURTH_ORDER, SECOND_ORDER
 from mjcont.numerics.equations.problem import Array, Values
 
 # rows of a batch; a step in velocity, relative to the state's scale in 1/s: accelerations are quadratic in it
@@ -26,33 +29,53 @@ class Moving:
 
     `driven` maps names of parameters to values of their own in each state, (m,). Where a limit or contact carries load,
     a cable is slack or an actuator saturates, there is no value, and `failure` is a clause that names it.
+
+    Attributes
+    ----------
+    n, na : numbers of coordinates, and of activations that follow a control.
+    activation_scale : (na,) their typical sizes.
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
         self._mechanism, self._core, self.n = mechanism, mechanism._core, mechanism.n
         self._scale = mechanism.state_scale
+        m, following = self._core.model, self._core.writer.inputs.following
+        self.na = len(following)
+        self.activation_scale = np.array([_activation_size(m, actuator_of(m, "act", int(i))) for i in following])
         self.failure = ""
 
     def accelerations(self, states: Array, values: Values, driven: Driven) -> Array:
-        """Return qacc at states (m, 2 nv) of position and velocity, (m, nv)."""
+        """Return qacc and rates of activations at states (m, 2 nv + na) of position, velocity, activations."""
         return self._each(states[:, None, :], values, driven)[:, 0]
 
     def derivatives(self, states: Array, values: Values, driven: Driven, accurate: bool) -> tuple[Array, Array]:
-        """Return qacc (m, nv) and its derivatives in position and velocity (m, nv, 2 nv)."""
-        rule, n = FOURTH_ORDER if accurate else SECOND_ORDER, self.n
-        in_place = jacobian_steps(self._scale, rule)
-        in_speed = np.concatenate([o * _SPEED * np.diag(self._scale) for o in SECOND_ORDER.offsets])
-        steps = np.zeros((1 + len(in_place) + len(in_speed), 2 * n))
-        steps[1 : 1 + len(in_place), :n], steps[1 + len(in_place) :, n:] = in_place, in_speed
-        rows = self._each(states[:, None, :] + steps, values, driven)
-        places = rows[:, 1 : 1 + len(in_place)].reshape(len(states), len(rule.offsets), n, n)
-        speeds = rows[:, 1 + len(in_place) :].reshape(len(states), 2, n, n)
-        over_q = np.einsum("o,mokf->mfk", np.array(rule.weights), places) / (rule.step * self._scale)
-        over_v = np.einsum("o,mokf->mfk", np.array(SECOND_ORDER.weights), speeds) / (_SPEED * self._scale)
-        return rows[:, 0], np.concatenate([over_q, over_v], axis=2)
+        """Return qacc and rates of activations (m, nv + na) and their derivatives (m, nv + na, 2 nv + na)."""
+        rule, n, d = FOURTH_ORDER if accurate else SECOND_ORDER, self.n, 2 * self.n + self.na
+        parts = [  # where each group of entries stands, its rule, its step and its sizes
+            (slice(0, n), rule, rule.step, self._scale),
+            (slice(n, 2 * n), SECOND_ORDER, _SPEED, self._scale),
+            (slice(2 * n, d), FOURTH_ORDER, FOURTH_ORDER.step, self.activation_scale),
+        ]
+        steps = [np.zeros((1, d))]
+        for at, own, step, sizes in parts:
+            moved = np.zeros((len(own.offsets) * len(sizes), d))
+            moved[:, at] = np.concatenate([o * step * np.diag(sizes) for o in own.offsets])
+            steps.append(moved)
+        rows = self._each(states[:, None, :] + np.concatenate(steps), values, driven)
+        found, first = [], 1
+        for (_, own, step, sizes), moved in zip(parts, steps[1:], strict=True):
+            here = rows[:, first : first + len(moved)].reshape(len(states), len(own.offsets), len(sizes), n + self.na)
+            found.append(np.einsum("o,mokf->mfk", np.array(own.weights), here) / (step * sizes))
+            first += len(moved)
+        return rows[:, 0], np.concatenate(found, axis=2)
+
+    def resting(self, values: Values) -> Array:
+        """Return the activations at rest, (na,)."""
+        self._core.writer.write(self._mechanism.parameters, values)
+        return self._core.writer.inputs.resting.copy()
 
     def _each(self, states: Array, values: Values, driven: Driven) -> Array:
-        """Return qacc at states (m, k, 2 nv), the k of one m sharing its inputs, (m, k, nv)."""
+        """Return rates at states (m, k, 2 nv + na), the k of one m sharing its inputs, (m, k, nv + na)."""
         m, k, _ = states.shape
         core, parameters = self._core, self._mechanism.parameters
         flat = states.reshape(m * k, -1)
@@ -68,28 +91,28 @@ class Moving:
                         for i in target.index:
                             controls[:, i] += target.factor * (column - values[name])
                 controls = np.repeat(controls, k, axis=0)
-            return self._rows(flat, controls).reshape(m, k, self.n)
-        found = np.empty((m, k, self.n))
+            return self._rows(flat, controls).reshape(m, k, -1)
+        found = np.empty((m, k, self.n + self.na))
         for i in range(m):
             core.writer.write(parameters, {**values, **{name: float(column[i]) for name, column in driven.items()}})
             found[i] = self._rows(states[i], None)
         return found
 
     def _rows(self, states: Array, controls: Array | None) -> Array:
-        """Return qacc at states (m, 2 nv), in batches of one size, the last one filled up with its last row."""
-        found, evaluator = np.empty((len(states), self.n)), self._core.evaluator
+        """Return rates at states (m, 2 nv + na), in batches of one size, the last filled up with its last row."""
+        found, evaluator, n = np.empty((len(states), self.n + self.na)), self._core.evaluator, self.n
         size = min(_ROWS, len(states))
         for first in range(0, len(states), size):
             here = np.minimum(np.arange(first, first + size), len(states) - 1)
             count = min(size, len(states) - first)
             ctrl = None if controls is None else controls[here]
-            rows = evaluator.accelerations(states[here, : self.n], states[here, self.n :], ctrl)
+            act = states[here, 2 * n :] if self.na else None
+            rows = evaluator.accelerations(states[here, :n], states[here, n : 2 * n], ctrl, act)
             evaluator.count -= size - count
             found[first : first + count] = rows[:count]
             if evaluator.nonsmooth:
                 self._leave_out(found[first : first + count], evaluator.touched(count))
         return found
-
 
     def _leave_out(self, rows: Array, touched: Sequence[frozenset[str]]) -> None:
         """Let rows in which something carries load have no value: motion is smooth where nothing does."""
@@ -97,6 +120,29 @@ class Moving:
             if names:
                 row[:] = np.nan
                 self.failure = f"the orbit touches {', '.join(sorted(names))}"
+
+
+def _activation_size(model: mujoco.MjModel, actuator: int) -> float:
+    """Return the typical size of an activation: that of the range its control has, or one."""
+    if not model.actuator_ctrllimited[actuator]:
+        return 1.0
+    return float(np.abs(model.actuator_ctrlrange[actuator]).max()) or 1.0
+
+
+def _unfit_activation(model: mujoco.MjModel) -> str:
+    """Return why an actuator's state is none that an orbit may have, with what to do; empty where all are."""
+    for a in range(model.nactuator):
+        if not model.actuator_actnum[a] or integrator(model, a):  # an integrator's setpoint is a parameter
+            continue
+        name = actuator_name(model, a)
+        if not follower(model, a):
+            return f"actuator {name} has a state that follows no control: make it a motor, a filter or a muscle"
+        if model.actuator_actearly[a]:
+            return f"actuator {name} acts early, by a time step: set actearly to false"
+        muscle = model.actuator_dyntype[a] == int(mujoco.mjtDyn.mjDYN_MUSCLE)
+        if muscle and model.actuator_dynprm[a, 0] != model.actuator_dynprm[a, 1] and model.actuator_dynprm[a, 2] <= 0.0:
+            return f"muscle {name} switches between two time constants at once: give it a tausmooth"
+    return ""
 
 
 def unfit_for_orbits(mechanism: Mechanism) -> str:
@@ -110,8 +156,8 @@ def unfit_for_orbits(mechanism: Mechanism) -> str:
         return "dry friction (frictionloss) makes its motion smooth in pieces only: remove it, or use damping"
     if m.actuator_delay.any():
         return "an actuator acts with a delay: set delay to 0"
-    if m.na:
-        return "an actuator has a state of its own (a filter, muscle or integrator): make it a motor"
+    if m.na and _unfit_activation(m):
+        return _unfit_activation(m)
     if m.nq != m.nv:
         return "it has ball or free joints, whose rotations need charts: use hinges and slides"
     return ""

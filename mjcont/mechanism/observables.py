@@ -128,8 +128,12 @@ class Readings:
         states: Array,
         values: Sequence[Values] | Values,
         velocities: Array | None = None,
+        activations: Array | None = None,
     ) -> Array:
-        """Return observables for states (m, nq), at rest unless velocities (m, nv) are given, shape (m, chosen)."""
+        """Return observables for states (m, nq), at rest unless velocities (m, nv) are given, shape (m, chosen).
+
+        `activations` (m, followers) take the place of those at rest.
+        """
         out = np.full((len(states), len(chosen)), np.nan)
         data = self._data
         for i, x in enumerate(states):
@@ -139,6 +143,8 @@ class Readings:
             data.qpos[:] = x
             data.qvel[:] = 0.0 if velocities is None else velocities[i]
             self._writer.inputs.put(data)
+            if activations is not None:
+                data.act[self._writer.inputs.following] = activations[i]
             with quiet:
                 mujoco.mj_forward(self._model, data)
             out[i] = [o.function(self._model, data) for o in chosen]
@@ -208,10 +214,14 @@ class Observed:
         values: Sequence[Values] | Values,
         names: Sequence[str] | None = None,
         velocities: Array | None = None,
+        activations: Array | None = None,
     ) -> Array:
-        """Return observables for states (m, nq), at rest unless velocities (m, nv) are given; default all of them."""
+        """Return observables for states (m, nq), at rest unless velocities (m, nv) are given; default all of them.
+
+        `activations` (m, followers) are those of filters and muscles in motion; by default they are at rest.
+        """
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
-        return self._core.readings.read(chosen, states, values, velocities)
+        return self._core.readings.read(chosen, states, values, velocities, activations)
 
     def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
         """Return all observables at rest in states (m, nq), a parameter having a value of its own in each (m,)."""

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from mjcont.curves.continuation import start_from
-from mjcont.errors import ParameterError, unknown_name
+from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.motion.fields import simulate_field
 from mjcont.motion.signals import Input, read_inputs
@@ -147,6 +147,9 @@ def _begun(problem: Any, case: dict[str, Any]) -> tuple[Model, dict[str, Any], f
     for name in ("start", "keyframe", "state", "velocity"):
         if case[name] is not None:
             raise ParameterError(f"{name}= says where a model's motion begins: an orbit begins on itself")
+    if orbit.activated:
+        raise MjcontError("a motion begins with activations at rest, which are not those of this orbit: give simulate "
+                          "the model, its inputs, and the orbit's states and velocities, and let it settle")
     model, n = model_of(orbit.problem, "the orbit"), orbit.path.c
     forced = {name: _driven(orbit, name) for name in orbit.inputs(np.zeros(1))}
     begin = {"inputs": {**forced, **(case["inputs"] or {})}, "start": orbit.constants(), "state": orbit.at(0.0)[:n]}

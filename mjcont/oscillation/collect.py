@@ -46,7 +46,7 @@ def make_orbit(point: CurvePoint) -> Orbit:
     flow, path, m, values = flow_at(point), path_at(point), multipliers_at(point), point.local.values
     return Orbit(
         path, flow.reading(path, values), dict(values), flow.units(), m.values, m.resolved, m.trivial,
-        error_at(point), flow.model.name, flow.model, orbits_at(point).shift, flow.record(),
+        error_at(point), flow.model.name, flow.model, orbits_at(point).shift, flow.record(), flow.activated,
     )
 
 

@@ -190,7 +190,7 @@ def _cycle(
     flow: ModelFlow, state: Array, values: dict[str, float], read: Options, duration: float | None
 ) -> tuple[Path, Array]:
     """Return the cycle on which a motion settles, and what it gains in a period."""
-    whole = _whole(flow, state)
+    whole = flow.resting(state, values)
     if flow.undamped(whole, values):
         raise MjcontError(f"{flow.model.name} has no damping: its orbits form a family, one for each energy, and no "
                           "motion settles on one; add damping, or force it (continue_response)")
@@ -216,8 +216,3 @@ def _motion(
     last = [start.states[-1], start.velocities[-1]] if problem.second_order else [start.states[-1]]
     time = start["time"]
     return np.concatenate(last), values, float(time[-1] - time[0]) or None
-
-
-def _whole(flow: ModelFlow, state: Array) -> Array:
-    """Return a state (d,), at rest where no velocity is given."""
-    return np.concatenate([state, np.zeros(flow.d - len(state))])

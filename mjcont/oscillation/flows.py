@@ -65,6 +65,16 @@ class ModelFlow(Flow):
         sizes = self.scale[self.c :]
         return bool(np.abs(jac[..., self.c :] * sizes).max() <= _NONE * np.abs(jac[..., : self.c] * sizes).max())
 
+    def resting(self, state: Array, values: Values) -> Array:
+        """Return a whole state (d,) from a model's (nq,), or from one with velocities, at rest in what is not given."""
+        del values
+        return np.concatenate([state, np.zeros(self.d - len(state))])
+
+    @property
+    def activated(self) -> int:
+        """How many of a state's last entries are activations of actuators."""
+        return 0
+
     def state(self, state: Array) -> Array:
         """Return the model's state (nq,) of a state (d,)."""
         return state[: self.c].copy()

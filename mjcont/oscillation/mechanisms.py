@@ -28,6 +28,16 @@ class MechanismFlow(ModelFlow):
         self.scale = np.concatenate([mechanism.state_scale, mechanism.state_scale])
 
     @property
+    def follows(self) -> bool:
+        """Whether actuators have activations that follow their controls."""
+        return self._moving.na > 0
+
+    def _split(self, states: Array) -> tuple[Array, Array, Array | None]:
+        """Return positions, velocities and activations (None where there are none) of states (k, d)."""
+        n = self.mechanism.n
+        return states[:, :n], states[:, n : 2 * n], states[:, 2 * n :] if self.activated else None
+
+    @property
     def touches(self) -> str:
         """What a motion touched last, a clause."""
         return self._moving.failure
@@ -39,13 +49,13 @@ class MechanismFlow(ModelFlow):
 
     def turns(self, state: Array, values: Values) -> Array:
         """Return a full turn for each angle in which one changes no force, infinity for the others, (2 nv,)."""
-        places = self.mechanism.periods(state[: self.c], self.theirs(values))
-        return np.concatenate([places, np.full(self.c, np.inf)])
+        places = self.mechanism.periods(state[: self.mechanism.n], self.theirs(values))
+        return np.concatenate([places, np.full(self.d - len(places), np.inf)])
 
     def repeated(self) -> MechanismFlow:
         """Return the same motion with twice the period of the forcing."""
         f = self.forcing
-        return MechanismFlow(self.mechanism, None if f is None else Forcing(f.inputs, f.parameters, 2 * f.periods))
+        return type(self)(self.mechanism, None if f is None else Forcing(f.inputs, f.parameters, 2 * f.periods))
 
     def rates(self, states: Array, phases: Array, values: Values) -> Array:
         """Return qacc at states (m, 2 nv) and phases (m,), shape (m, nv)."""
@@ -56,6 +66,13 @@ class MechanismFlow(ModelFlow):
     ) -> Rates:
         """Return qacc with its derivatives: second order in position, or fourth where `accurate`."""
         value, jac = self._moving.derivatives(states, self.theirs(values), self.driven(phases, values), accurate)
+        par = self._over_parameters(states, phases, values, value, wrt, ranges)
+        return Rates(value, jac, par)
+
+    def _over_parameters(
+        self, states: Array, phases: Array, values: Values, value: Array, wrt: Sequence[str], ranges: Ranges
+    ) -> Array:
+        """Return derivatives of the rates, whose value is given, in parameters, (m, c, k)."""
         par = np.zeros((len(states), self.c, len(wrt)))
         for k, name in enumerate(wrt):
             if not self.acts(name):
@@ -64,13 +81,57 @@ class MechanismFlow(ModelFlow):
             at = [self.rates(states, phases, {**values, name: values[name] + o * h}) if o else value
                   for o in rule.offsets]
             par[:, :, k] = np.tensordot(rule.weights, np.array(at), axes=1) / h
-        return Rates(value, jac, par)
+        return par
 
     def measured(self, states: Array, phases: Array, values: Values) -> Array:
-        """Return all observables at states (k, 2 nv) and phases (k,), shape (k, number of observables)."""
+        """Return all observables at states (k, d) and phases (k,), shape (k, number of observables)."""
         theirs, driven = self.theirs(values), self.driven(phases, values)
         rows = [{**theirs, **{n: float(column[i]) for n, column in driven.items()}} for i in range(len(states))]
-        return self.mechanism.measure(states[:, : self.c], rows, None, states[:, self.c :])
+        places, speeds, activations = self._split(states)
+        return self.mechanism.measure(places, rows, None, speeds, activations)
+
+
+class ActuatedFlow(MechanismFlow):
+    """The motion of a mechanism with filters or muscles, whose activations join the state.
+
+    q' = v,  v' = qacc(q, v, a),  a' = g(a, input)
+    """
+
+    order = 1
+
+    def __init__(self, mechanism: Mechanism, forcing: Forcing | None = None) -> None:
+        super().__init__(mechanism, forcing)
+        self.c = 2 * mechanism.n + self._moving.na
+        self.scale = np.concatenate([self.scale, self._moving.activation_scale])
+
+    @property
+    def activated(self) -> int:
+        """How many of a state's last entries are activations of actuators."""
+        return self._moving.na
+
+    def state(self, state: Array) -> Array:
+        """Return the mechanism's state (nq,) of a state (d,)."""
+        return state[: self.mechanism.n].copy()
+
+    def resting(self, state: Array, values: Values) -> Array:
+        """Return a whole state (d,), its activations at rest, from positions or from these and velocities."""
+        moving = np.concatenate([state, np.zeros(2 * self.mechanism.n - len(state))])
+        return np.concatenate([moving, self._moving.resting(self.theirs(values))])
+
+    def rates(self, states: Array, phases: Array, values: Values) -> Array:
+        """Return velocities, qacc and rates of activations at states (m, d) and phases (m,), shape (m, d)."""
+        return np.hstack([self._split(states)[1], super().rates(states, phases, values)])
+
+    def derivatives(
+        self, states: Array, phases: Array, values: Values, wrt: Sequence[str], accurate: bool, ranges: Ranges = ()
+    ) -> Rates:
+        """Return these rates with their derivatives."""
+        n, m = self.mechanism.n, len(states)
+        rates, jac = self._moving.derivatives(states, self.theirs(values), self.driven(phases, values), accurate)
+        value = np.hstack([self._split(states)[1], rates])
+        upper = np.broadcast_to(np.eye(n, self.c, k=n), (m, n, self.c))
+        par = self._over_parameters(states, phases, values, value, wrt, ranges)
+        return Rates(value, np.concatenate([upper, jac], axis=1), par)
 
 
 def mechanism_flow(problem: Model, forcing: Forcing | None = None) -> MechanismFlow:
@@ -85,4 +146,5 @@ def mechanism_flow(problem: Model, forcing: Forcing | None = None) -> MechanismF
     unfit = unfit_for_orbits(problem)
     if unfit:
         raise MjcontError(f"periodic motion of {problem.name} cannot be followed: {unfit}")
-    return MechanismFlow(problem, forcing)
+    found = MechanismFlow(problem, forcing)
+    return ActuatedFlow(problem, forcing) if found.follows else found

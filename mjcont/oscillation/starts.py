@@ -60,7 +60,7 @@ def hopf_vector(flow: ModelFlow, point: SpecialPoint) -> tuple[Array, Array, flo
         If no pair of eigenvalues oscillates there.
     """
     values = flow.values({k: v for k, v in point.parameters.items() if k in flow.values()})
-    mean = np.concatenate([point.state, np.zeros(flow.d - len(point.state))])
+    mean = flow.resting(point.state, values)
     rates = flow.derivatives(mean[None], np.zeros(1), values, (), True).jac[0]
     matrix = rates
     if flow.order == 2:
@@ -122,7 +122,7 @@ def response_path(flow: ModelFlow, x: Array, values: dict[str, float], meshes: M
     found = find_start(flow.model, x, flow.theirs(values))
     if found.failure is not None:
         raise StartError(f"no equilibrium found under the mean inputs, from which to begin: {found.failure}")
-    still = np.concatenate([found.x, np.zeros(flow.d - len(found.x))])
+    still = flow.resting(found.x, values)
     path: Path = resting_path(flow, meshes.scheme, meshes.first, still, flow.period(values))
     amplitudes = [f"{name}.amplitude" for name in flow.forcing.inputs]
     part, step = 0.0, 1.0

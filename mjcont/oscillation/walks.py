@@ -58,7 +58,7 @@ def read_options(flow: ModelFlow, given: Mapping[str, Any]) -> Options:
         If an option does not exist or does not fit.
     """
     own = {k: v for k, v in given.items() if k in _OWN}
-    name = own.get("scheme", RADAU if flow.order == 2 else GAUSS)
+    name = own.get("scheme", GAUSS if isinstance(flow, FieldFlow) else RADAU)
     if name not in SCHEMES:
         raise unknown_name("scheme", str(name), SCHEMES)
     degree = _whole("degree", own.get("degree", 5), 2, 9)

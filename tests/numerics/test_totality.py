@@ -8,6 +8,7 @@ import pkgutil
 
 import numpy as np
 import pytest
+from problems import failing_orbits
 from problems.failing import BAD, CASES, PLAIN, Bad, walk
 
 import mjcont as mc
@@ -21,10 +22,8 @@ from mjcont.numerics.walk.steps import Status, Step
 
 
 def public_names():
-    """Return the public functions and classes of the numerical modules; those of orbits are not made to fail yet."""
+    """Return the public functions and classes of the numerical modules."""
     for module in pkgutil.walk_packages(mjcont.numerics.__path__, "mjcont.numerics."):
-        if module.name.startswith("mjcont.numerics.orbits"):
-            continue
         for name, item in vars(importlib.import_module(module.name)).items():
             own = getattr(item, "__module__", "") == module.name
             if own and not name.startswith("_") and (inspect.isfunction(item) or inspect.isclass(item)):
@@ -32,7 +31,7 @@ def public_names():
 
 
 def test_every_public_routine_of_the_numerics_is_made_to_fail():
-    assert set(public_names()) == set(CASES) | PLAIN
+    assert set(public_names()) == set(CASES) | PLAIN | set(failing_orbits.CASES) | failing_orbits.PLAIN
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -40,6 +39,13 @@ def test_a_routine_returns_where_it_can_compute_nothing(name):
     with np.errstate(all="ignore"):
         for bad in BAD:
             CASES[name](bad)
+
+
+@pytest.mark.parametrize("name", failing_orbits.CASES)
+def test_a_routine_for_orbits_returns_where_it_can_compute_nothing(name):
+    with np.errstate(all="ignore"):
+        for bad in failing_orbits.BAD:
+            failing_orbits.CASES[name](bad)
 
 
 # -- what is said -------------------------------------------------------------------------------------------------

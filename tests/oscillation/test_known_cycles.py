@@ -52,6 +52,14 @@ def test_a_stiff_relaxation_oscillation_is_found_in_its_motion():
     assert mc.find_cycle(van_der_pol(100.0)).period == pytest.approx(162.8371, abs=1e-4)
 
 
+@pytest.mark.long
+def test_a_relaxation_oscillation_is_followed_until_its_jumps_are_steep():
+    curve = mc.continue_cycles(van_der_pol(), "mu", (1.0, 100.0), direction=1)
+    assert curve.ends[-1][0] == "at bound"
+    assert curve["period"][-1] == pytest.approx(162.8371, abs=1e-4)
+    assert curve.special_points == ()
+
+
 @pytest.fixture(scope="module")
 def spiral():
     return mc.continue_cycles(rossler(), "c", (2.5, 4.2))

@@ -86,7 +86,7 @@ def test_a_torus_changes_side_where_it_must():
 @pytest.mark.long
 def test_folds_of_cycles_of_the_bautin_form_end_at_its_generalised_hopf_point():
     cycles = mc.continue_cycles(mc.continue_equilibria(bautin(), "b1", (-0.5, 0.5)).point("HB1"))
-    locus = mc.continue_special(cycles.point("LPC1"), "b2", (-1.0, 1.5))
+    locus = mc.continue_special(cycles.point("LPC1"), "b2", {"b1": (-1.0, 0.5), "b2": (-1.0, 1.5)})
     assert np.abs(locus["b1"] + locus["b2"] ** 2 / 4.0).max() < PLACE
     ends = dict(locus.ends)
     assert "generalised Hopf point (GH)" in ends["rest"]

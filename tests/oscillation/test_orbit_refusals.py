@@ -47,9 +47,9 @@ def test_dry_friction_is_refused():
         swung(pendulum('frictionloss="0.1"'))
 
 
-def test_a_filtered_motor_is_refused():
-    motor = '<general name="torque" joint="pivot" dyntype="filter" dynprm="0.1"/>'
-    with pytest.raises(mc.MjcontError, match="make it a motor"):
+def test_a_motor_that_acts_a_time_step_early_is_refused():
+    motor = '<general name="torque" joint="pivot" dyntype="filter" dynprm="0.1" actearly="true"/>'
+    with pytest.raises(mc.MjcontError, match="set actearly to false"):
         swung(pendulum(motor=motor))
 
 

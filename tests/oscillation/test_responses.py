@@ -86,3 +86,11 @@ def test_a_parameter_of_the_model_called_frequency_is_named_in_the_error():
     field = mc.VectorField(lambda u, p: [-p["frequency"] * u[0]], [0.0], {"frequency": 1.0, "g": 0.0})
     with pytest.raises(mc.ParameterError, match="rename it where it is declared"):
         mc.continue_response(field, "frequency", (0.1, 1.0), {"g": mc.Harmonic(1.0)})
+
+
+def test_a_curve_goes_on_to_both_sides_from_a_fold_of_its_own():
+    response = mc.continue_response(duffing(), "w", (0.8, 2.6))
+    again = mc.continue_response(response.point("LPC1"))
+    assert [status for status, _ in again.ends] == ["at bound", "at bound"]
+    assert [p.kind for p in again.special_points] == ["LPC", "LPC"]
+    assert [p["w"] for p in again.special_points] == pytest.approx([p["w"] for p in response.special_points], abs=1e-8)

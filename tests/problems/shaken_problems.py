@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 import mjcont as mc
-from problems import crossings, fields, folding, forms, locusfields, locusforms
+from problems import crossings, fields, folding, forms, locusfields, locusforms, motions
 from problems.curves import scalar
 from problems.kinked import cable, slider
 from problems.mechanisms import column
@@ -231,4 +231,16 @@ def _mechanisms() -> Iterator[tuple[str, Job]]:
     yield "toggle clamp", partial(_mechanism, "toggle_clamp", "M", -30.0, 30.0, {"M": 20.0}, keyframe="closed")
 
 
-PROBLEMS: dict[str, Job] = dict([*_fields(), *_loci(), *_random(), *_mechanisms()])
+def _overcentre_shaken_by_its_force() -> mc.Branch:
+    overcentre = mc.Mechanism.from_xml("overcentre")
+    start, forcing = {"F": 30.0, "k_j": 1e3}, {"F": mc.Harmonic(5.0)}
+    return mc.continue_response(overcentre, "frequency", (0.3, 0.35), forcing, start, direction=1)
+
+
+def _motions() -> Iterator[tuple[str, Job]]:
+    yield "relaxation oscillation", lambda: mc.continue_cycles(motions.van_der_pol(), "mu", (1.0, 3.0))
+    yield "forced Duffing", lambda: mc.continue_response(motions.duffing(), "w", (0.8, 2.6))
+    yield "overcentre, shaken by its force", _overcentre_shaken_by_its_force
+
+
+PROBLEMS: dict[str, Job] = dict([*_fields(), *_loci(), *_random(), *_mechanisms(), *_motions()])

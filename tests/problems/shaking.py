@@ -123,10 +123,10 @@ def _shake_mechanisms(patch: pytest.MonkeyPatch, noise: Noise) -> None:
 
 
 def _shake_fields(patch: pytest.MonkeyPatch, noise: Noise) -> None:
-    residual, linearize = VectorField.residual, VectorField.linearize
+    rate, linearize = VectorField.rate, VectorField.linearize
 
-    def shaken_residual(self: VectorField, x: Array, values: Any) -> Array:
-        return noise.off(residual(self, noise.off(x), noise.numbers_off(values)))
+    def shaken_rate(self: VectorField, x: Array, values: Any, time: float) -> Array:
+        return noise.off(rate(self, noise.off(x), noise.numbers_off(values), time))
 
     def shaken_linearize(self: VectorField, *arguments: Any, **named: Any) -> Any:
         found = linearize(self, *arguments, **named)
@@ -135,7 +135,7 @@ def _shake_fields(patch: pytest.MonkeyPatch, noise: Noise) -> None:
             (jac.data if sparse.issparse(jac) else jac)[:] = noise.off(jac.data if sparse.issparse(jac) else jac)
         return found
 
-    patch.setattr(VectorField, "residual", shaken_residual)
+    patch.setattr(VectorField, "rate", shaken_rate)
     patch.setattr(VectorField, "linearize", shaken_linearize)
 
 

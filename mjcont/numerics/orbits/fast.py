@@ -163,7 +163,12 @@ def _commutator(a: Array, b: Array) -> Array:
 
 
 def exponentials(matrices: Array) -> Array:
-    """Return the exponentials of matrices (k, d, d), by the Pade approximant of degree 6 of halves of them, squared."""
+    """Return the exponentials of matrices (k, d, d), by the Pade approximant of degree 6 of halves of them, squared.
+
+    They are NaN where one of them is not finite.
+    """
+    if not np.isfinite(matrices).all():
+        return np.full_like(matrices, np.nan)
     norms = np.abs(matrices).sum(axis=1).max(axis=1)
     halvings = max(int(np.ceil(np.log2(max(float(norms.max()), 1e-300) / 0.5))), 0)
     a, eye = matrices / 2.0**halvings, np.eye(matrices.shape[1])

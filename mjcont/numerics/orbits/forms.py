@@ -28,8 +28,8 @@ from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.defining import CycleFold, PeriodDoubling, Torus, orbits_of
 from mjcont.numerics.step.arclength import CurvePoint
 
-# how far an orbit is moved for second and third derivatives, relative to its sizes
-_MOVED = 1e-3
+# how far an orbit is moved for second and third derivatives, relative to its sizes: of fourth order
+_MOVED = 1e-2
 
 
 def _accurate(point: CurvePoint) -> Local:
@@ -44,10 +44,10 @@ class _Bends:
         orbits, self.scale = orbits_of(local), local.problem.state_scale
         step = along * self.scale
         size = float(np.abs(step[: orbits.ends].reshape(-1, orbits.flow.d) / orbits.sizes).max())
-        e = _MOVED / max(size, 1e-300)
-        ahead, behind = (_matrix(local, local.x + s * e * step) for s in (1.0, -1.0))
-        self.first = (ahead - behind) / (2.0 * e)
-        self.second = (ahead - 2.0 * local.jac + behind) / e**2
+        e = _MOVED / max(size, 1e-100)
+        far_ahead, ahead, behind, far_behind = (_matrix(local, local.x + s * e * step) for s in (2.0, 1.0, -1.0, -2.0))
+        self.first = (8.0 * (ahead - behind) - (far_ahead - far_behind)) / (12.0 * e)
+        self.second = (16.0 * (ahead + behind) - (far_ahead + far_behind) - 30.0 * local.jac) / (12.0 * e**2)
 
 
 def _matrix(local: Local, x: Array) -> Any:

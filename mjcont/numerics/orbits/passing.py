@@ -44,6 +44,8 @@ ON_CIRCLE = 1e-7
 _ON_AXIS, _RESONANT = 1e-6, 1e-3
 # pieces shorter than this are not halved; what is nearer than this to a fold is that fold's own multiplier
 _TOGETHER, _OWN = 1e-6, 1e-5
+# a parameter that moves by less along the tangent turns there: the point is a fold itself, as a start may be
+_TURNS = 1e-6
 # sine of the angle of a pair below which its matrix is nearly singular twice
 _AT_RESONANCE = 1e-3
 # imaginary parts below this are rounding of a double real multiplier
@@ -80,6 +82,7 @@ class Crossing:
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found | Refused:
         """Return the points at which multipliers pass, but for those that folds and branch points account for."""
         places = [e.point.s for e in found if e.kind in ("LPC", "BPC")]
+        places += [p.s for p in (old, new) if self._turns(p) and all(abs(p.s - s) > _OWN for s in places)]
         results = list[Located]()
         for piece in self._pieces(old, new, _peak(old, new)):
             explained = [s for s in places if piece[0].s - _OWN <= s <= piece[1].s + _OWN]
@@ -88,6 +91,10 @@ class Crossing:
                 return result
             results += [] if result is None else [result]
         return Found(results)
+
+    def _turns(self, point: CurvePoint) -> bool:
+        """Whether a point is a fold, whose own multiplier is 1 but for rounding."""
+        return abs(float(point.tangent[self.system.n])) <= _TURNS
 
     def _pieces(self, old: CurvePoint, new: CurvePoint, at: float | None = None) -> list[Piece]:
         """Return the pieces of a step in which something passes: one multiplier or pair, or several together."""

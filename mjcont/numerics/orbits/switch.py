@@ -77,7 +77,7 @@ def _entered(system: System, x: Array, y: Array, along: Array, over: float) -> D
     moved = (along * orbits.state_scale)[: orbits.ends].reshape(-1, orbits.flow.d)
     size = float(np.abs(moved / orbits.sizes).max())
     step = np.append(along, over)
-    near, beside = system.move(x, y, FIRST / max(size, abs(over)) * step)
+    near, beside = system.move(x, y, FIRST / max(size, abs(over), 1e-300) * step)
     return Departure(system, near, beside, step / np.linalg.norm(step))
 
 

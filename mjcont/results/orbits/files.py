@@ -3,7 +3,8 @@
 Layout beside what `branchfiles` says::
 
     /                     attribute forcing (JSON)
-    /orbits               attributes scheme, degree, order, names, units (JSON: of observables)
+    /orbits               attributes scheme, degree, order, names, units (JSON: of observables), activated (how many
+                          of a state's last entries are activations)
     /orbits/intervals     (R,) int32: intervals of each orbit's mesh; their sum is K
     /orbits/period, error (R,) float64, s and relative
     /orbits/mesh          (K + R,) float64: each mesh from 0 to 1
@@ -57,6 +58,7 @@ def write_cycles(branch: CycleBranch, f: h5py.Group) -> None:
     g.attrs.update(
         scheme=first.path.scheme.name, degree=first.path.scheme.degree, order=first.path.order,
         names=json.dumps(list(first.reading.names)), units=json.dumps(list(first.reading.units)),
+        activated=first.activated,
     )
     g["intervals"] = np.array([len(o.path.w) for o in orbits], dtype=np.int32)
     g["period"], g["error"] = np.array([o.period for o in orbits]), np.array([o.error for o in orbits])
@@ -91,6 +93,9 @@ def _read_orbits(g: h5py.Group, branch: Branch, multipliers: Sequence[Array], fo
     name, degree, order = str(g.attrs["scheme"]), int(g.attrs["degree"]), int(g.attrs["order"])
     if name not in SCHEMES or not 1 <= degree <= g["rates"].shape[1] or order not in (1, 2):
         raise ValueError("its orbits are polynomials of a kind that is not known")
+    activated = int(g.attrs.get("activated", 0))  # files of before had none
+    if activated and (order != 1 or not 0 < activated < g["states"].shape[1]):
+        raise ValueError("its orbits have activations that do not fit their states")
     rule = scheme(name, degree)
     names, units = (tuple(json.loads(g.attrs[key])) for key in ("names", "units"))
     a = {key: frozen(g[key][()]) for key in ("intervals", "period", "error", "mesh", "states", "rates", "points",
@@ -109,6 +114,6 @@ def _read_orbits(g: h5py.Group, branch: Branch, multipliers: Sequence[Array], fo
         reading = Reading(names, units, a["points"][first * rule.degree : last * rule.degree], a["ends"][ends])
         found.append(Orbit(
             path, reading, branch.parameters_at(i), all_units, multipliers[i], a["resolved"][i].astype(bool),
-            int(a["trivial"][i]), float(a["error"][i]), branch.name, branch.problem, a["shift"][i], forcing,
+            int(a["trivial"][i]), float(a["error"][i]), branch.name, branch.problem, a["shift"][i], forcing, activated,
         ))
     return found

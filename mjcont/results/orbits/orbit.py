@@ -38,6 +38,7 @@ class Orbit:
     problem : the Mechanism or VectorField, or None for a loaded file without one.
     shift : what coordinates gain in a period, (d,): zero but for running orbits.
     forcing : what drives it, as `CycleBranch.forcing`.
+    activated : how many of a state's last entries are activations of actuators.
     """
 
     path: Path
@@ -52,6 +53,7 @@ class Orbit:
     problem: Model | None = field(repr=False, default=None)
     shift: Array = field(repr=False, default_factory=lambda: np.zeros(0))
     forcing: Mapping[str, Any] = field(repr=False, default_factory=dict)
+    activated: int = field(repr=False, default=0)
 
     @property
     def period(self) -> float:
@@ -97,15 +99,19 @@ class Orbit:
     @property
     def activations(self) -> Array:
         """States of actuators at `times`, (n, na)."""
-        return self.path.states(self._places)[:, self.path.order * self.path.c :]
+        found = self.path.states(self._places)
+        return found[:, found.shape[1] - self.activated :]
 
     def _moving(self, places: Array) -> tuple[Array, Array]:
         """Return states and velocities at places in the period."""
         found, c = self.path.states(places), self.path.c
-        return found[:, :c], found[:, c : 2 * c] if self.path.order == 2 else self.path.rates(places)
+        if self.activated:
+            c = (c - self.activated) // 2
+        halves = self.path.order == 2 or self.activated
+        return found[:, :c], found[:, c : 2 * c] if halves else self.path.rates(places)
 
     def at(self, time: float) -> Array:
-        """Return the state at a time, taken into the period: u, or qpos and qvel one after the other."""
+        """Return the state at a time, taken into the period: u, or qpos, qvel and activations one after the other."""
         turns, tau = divmod(time / self.period, 1.0)
         state: Array = self.path.states(np.array([tau]))[0]
         return state + turns * self.shift if len(self.shift) else state
