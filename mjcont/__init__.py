@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from mjcont.oscillation.cycles import continue_cycles, find_cycle
     from mjcont.oscillation.forced import Harmonic
     from mjcont.oscillation.loci import continue_special
+    from mjcont.oscillation.modes import modes
     from mjcont.oscillation.responses import continue_response
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
     from mjcont.results.branch import Branch, Diagram
@@ -62,6 +63,7 @@ if TYPE_CHECKING:
     from mjcont.results.histories import History
     from mjcont.results.loadpaths import Jump, LoadPath, Segment
     from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
+    from mjcont.results.modes import Mode, Modes
     from mjcont.results.orbits import CycleBranch, Orbit
     from mjcont.results.points import Column, Point, SpecialPoint
     from mjcont.results.search import Equilibria, Equilibrium
@@ -98,6 +100,7 @@ _HOMES = {
     "mjcont.numerics.equations.settings": ("Settings",),
     "mjcont.oscillation.cycles": ("continue_cycles", "find_cycle"),
     "mjcont.oscillation.forced": ("Harmonic",),
+    "mjcont.oscillation.modes": ("modes",),
     "mjcont.oscillation.responses": ("continue_response",),
     "mjcont.results.barriers": ("Barrier", "BarrierCurve", "BarrierMap"),
     "mjcont.results.branch": ("Branch", "Diagram"),
@@ -106,6 +109,7 @@ _HOMES = {
     "mjcont.results.histories": ("History",),
     "mjcont.results.loadpaths": ("Jump", "LoadPath", "Segment"),
     "mjcont.results.maps": ("FollowedPoint", "SpecialMap", "WorstCase"),
+    "mjcont.results.modes": ("Mode", "Modes"),
     "mjcont.results.orbits": ("CycleBranch", "Orbit"),
     "mjcont.results.points": ("Column", "Point", "SpecialPoint"),
     "mjcont.results.search": ("Equilibria", "Equilibrium"),
@@ -140,8 +144,10 @@ __all__ = [
     "LoadPath",
     "Mechanism",
     "MjcontError",
+    "Mode",
     "ModelError",
     "ModelWarning",
+    "Modes",
     "NameLookupError",
     "Orbit",
     "ParameterError",
@@ -184,6 +190,7 @@ __all__ = [
     "load",
     "load_path",
     "load_study",
+    "modes",
     "plot",
     "plot_orbits",
     "run_study",

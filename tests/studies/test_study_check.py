@@ -55,6 +55,9 @@ grid = { k = [900, 1100] }
 [[certificates]]
 name = "certified"
 branch = "ways_1"
+[[modes]]
+name = "small"
+point = "equilibria:start"
 [[barriers]]
 name = "barrier"
 branch = "equilibria"
