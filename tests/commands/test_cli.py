@@ -122,14 +122,6 @@ def test_inspect_prints_the_mechanism(capsys: pytest.CaptureFixture[str]) -> Non
     assert capsys.readouterr().out == f"{overcentre}\n\nmodes\n{rest}\n{modes}\n{files}"
 
 
-def test_inspect_says_where_qpos0_leads_to_no_rest(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    falling = tmp_path / "falling.xml"
-    falling.write_text('<mujoco><worldbody><body><joint type="slide" axis="0 0 1"/><geom size="0.1"/></body></worldbody>'
-                       "</mujoco>")
-    assert main(["inspect", str(falling)]) == 0
-    assert "\nmodes\n  no equilibrium found from" in capsys.readouterr().out
-
-
 def test_inspect_prints_the_summary_of_a_result(stored: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["inspect", str(stored)]) == 0
     assert capsys.readouterr().out == f"{mc.load(stored)}\n"
