@@ -56,14 +56,15 @@ if TYPE_CHECKING:
     from mjcont.oscillation.loci import continue_special
     from mjcont.oscillation.modes import modes
     from mjcont.oscillation.responses import continue_response
+    from mjcont.oscillation.transfer import transfer
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
     from mjcont.results.branch import Branch, Diagram
     from mjcont.results.certificates import Certificate
     from mjcont.results.formats import load
     from mjcont.results.histories import History
+    from mjcont.results.linear import Mode, Modes, Transfer
     from mjcont.results.loadpaths import Jump, LoadPath, Segment
     from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
-    from mjcont.results.modes import Mode, Modes
     from mjcont.results.orbits import CycleBranch, Orbit
     from mjcont.results.points import Column, Point, SpecialPoint
     from mjcont.results.search import Equilibria, Equilibrium
@@ -102,6 +103,7 @@ _HOMES = {
     "mjcont.oscillation.forced": ("Harmonic",),
     "mjcont.oscillation.modes": ("modes",),
     "mjcont.oscillation.responses": ("continue_response",),
+    "mjcont.oscillation.transfer": ("transfer",),
     "mjcont.results.barriers": ("Barrier", "BarrierCurve", "BarrierMap"),
     "mjcont.results.branch": ("Branch", "Diagram"),
     "mjcont.results.certificates": ("Certificate",),
@@ -109,7 +111,7 @@ _HOMES = {
     "mjcont.results.histories": ("History",),
     "mjcont.results.loadpaths": ("Jump", "LoadPath", "Segment"),
     "mjcont.results.maps": ("FollowedPoint", "SpecialMap", "WorstCase"),
-    "mjcont.results.modes": ("Mode", "Modes"),
+    "mjcont.results.linear": ("Mode", "Modes", "Transfer"),
     "mjcont.results.orbits": ("CycleBranch", "Orbit"),
     "mjcont.results.points": ("Column", "Point", "SpecialPoint"),
     "mjcont.results.search": ("Equilibria", "Equilibrium"),
@@ -164,6 +166,7 @@ __all__ = [
     "StiffnessStudy",
     "StudyError",
     "SweepTable",
+    "Transfer",
     "VectorField",
     "WorstCase",
     "add_bushes",
@@ -202,6 +205,7 @@ __all__ = [
     "stiffness_study",
     "sweep",
     "switch_branches",
+    "transfer",
     "verify_stability",
     "worst_case",
 ]

@@ -26,7 +26,7 @@ from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.branch import Branch
 from mjcont.results.histories import History
-from mjcont.results.modes import Mode
+from mjcont.results.linear import Mode
 from mjcont.results.orbits import Orbit, OrbitPoint, SpecialOrbit, orbit_of
 
 if TYPE_CHECKING:

@@ -11,8 +11,15 @@ from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array, Pencil
 from mjcont.numerics.spectra.spectrum import DIFFERENCE_NOISE, spectrum
 from mjcont.numerics.spectra.vibration import vibration
-from mjcont.results.modes import Mode, Modes
+from mjcont.results.linear import Mode, Modes
 from mjcont.results.points import Point
+
+
+def check_point(point: object) -> None:
+    """Refuse what is no equilibrium."""
+    if not isinstance(point, Point) or getattr(point, "orbit", None) is not None:
+        raise MjcontError("modes belong to an equilibrium: a point of a branch, a search or find_equilibrium, got a "
+                          f"{type(point).__name__}")
 
 
 def linearized(point: Point, wrt: Sequence[str] = ()) -> tuple[Pencil, Array]:
@@ -23,9 +30,7 @@ def linearized(point: Point, wrt: Sequence[str] = ()) -> tuple[Pencil, Array]:
     MjcontError
         If the point is no equilibrium, has no model, or its model is sparse.
     """
-    if not isinstance(point, Point) or getattr(point, "orbit", None) is not None:
-        raise MjcontError(f"modes belong to an equilibrium: a point of a branch, a search or find_equilibrium, got a "
-                          f"{type(point).__name__}")
+    check_point(point)
     model = point.model
     local = model.linearize(point.state, point.parameters, tuple(wrt), accurate=True)
     if sparse.issparse(local.jac):
@@ -72,7 +77,7 @@ def modes(point: Point) -> Modes:
     n = point.model.n
     mass = pencil.mass if pencil.mass is not None else np.zeros((n, n))
     damping = pencil.damping if pencil.damping is not None else np.eye(n)
-    return Modes(point, tuple(found), mass, damping, np.asarray(pencil.stiffness), _notes(point))
+    return Modes(point, tuple(found), mass, damping, np.asarray(pencil.stiffness), notes_of(point))
 
 
 def _slow(mass: Array, stiffness: Array) -> float:
@@ -80,6 +85,8 @@ def _slow(mass: Array, stiffness: Array) -> float:
     return float(DIFFERENCE_NOISE * np.abs(stiffness).max() / np.diag(mass).max())
 
 
-def _notes(point: Point) -> tuple[str, ...]:
+def notes_of(point: Point) -> tuple[str, ...]:
+    """Return what a reader of small motions about a point should know of its model."""
     held = tuple(getattr(point.model, "held", ()))
-    return (f"held, not free: {', '.join(held)}; such a motion shows as critically damped",) if held else ()
+    own = (f"held, not free: {', '.join(held)}; such a motion shows as critically damped",) if held else ()
+    return (*own, *getattr(point.model, "notes", ()))

@@ -18,6 +18,7 @@ from mjcont.results.quantities import column_of
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
 from mjcont.studies.keys import Context, Key, Kind
+from mjcont.studies.linear import MODES, TRANSFER
 from mjcont.studies.orbits import CYCLES, ORBITS, RESPONSES, check_plotted, default_curves, plotted
 from mjcont.studies.schema import Table
 from mjcont.studies.waveforms import read_input
@@ -344,15 +345,6 @@ BARRIER = Kind("barriers", "The energy that dislodges a rest, along a branch (`b
     "csv": _csv("a row a rest", True), "png": _png("the barrier against the parameter"),
 })
 
-MODES = Kind("modes", "Frequencies, damping and shapes of the modes at an equilibrium (`modes`).", {
-    "name": _NAME,
-    "point": Key(r.reference("search", "branch", "locus", "path"),
-                 "The equilibrium, such as `\"equilibria:start\"`, `\"equilibria:LP1\"`, `\"found:E1\"`.", needed=True),
-    "csv": _csv("a row a mode, with its shape", True),
-    "png": Key(k.flag, "Whether to draw NAME.png: the slowest modes of a mechanism that moves in a plane.",
-               False),
-})
-
 PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
     "file": Key(_plot_file, "File name ending in `.png`, `.pdf` or `.svg`, without a folder.", needed=True),
     "x": Key(plotted, "Column: a parameter or an observable; of orbits also `period`, `frequency`, `NAME.max`, `.min`, "
@@ -369,7 +361,7 @@ PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
 KINDS = {
     "search": SEARCH, "branch": BRANCH, "diagram": DIAGRAM, "cycles": CYCLES, "response": RESPONSES, "locus": LOCUS,
     "path": PATH, "history": HISTORY, "sensitivity": SENSITIVITY, "worst case": WORST, "map": MAP,
-    "certificate": CERTIFICATE, "barrier": BARRIER, "modes": MODES,
+    "certificate": CERTIFICATE, "barrier": BARRIER, "modes": MODES, "transfer": TRANSFER,
 }
 
 

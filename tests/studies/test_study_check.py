@@ -58,6 +58,10 @@ branch = "ways_1"
 [[modes]]
 name = "small"
 point = "equilibria:start"
+[[transfers]]
+name = "bode"
+point = "equilibria:start"
+input = "P"
 [[barriers]]
 name = "barrier"
 branch = "equilibria"

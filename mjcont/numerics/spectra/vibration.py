@@ -40,6 +40,15 @@ def vibration(pencil: Pencil) -> tuple[Array, Array]:
     return s[order], np.array([_normalised(shapes[:, i], mass) for i in order]).reshape(len(order), len(mass))
 
 
+def frequency_response(pencil: Pencil, omega: Array, load: Array) -> Array:
+    """Return x of (K + i w C - w^2 M) x = load for each w of `omega` (m,), (m, n); NaN where it is singular."""
+    k, c = np.asarray(pencil.stiffness), pencil.damping
+    c = np.eye(len(k)) if c is None else c
+    m = np.zeros_like(k) if pencil.mass is None else pencil.mass
+    # one by one: where one is singular, only that one has no answer
+    return np.array([solve(k + 1j * w * c - w**2 * m, load) for w in omega], dtype=complex).reshape(-1, len(k))
+
+
 def _undamped(mass: Array, stiffness: Array) -> tuple[Array, Array]:
     """Solve K phi = w^2 M phi in the coordinates in which M is the identity: s = i w, or +-sqrt(-w^2)."""
     lower = inverses(cholesky(mass))

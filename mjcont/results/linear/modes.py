@@ -197,7 +197,7 @@ class Modes:
         MjcontError
             If a mode does not exist or the mechanism does not move in a plane.
         """
-        from mjcont.drawing.modes import draw_modes
+        from mjcont.drawing.linear import draw_modes
 
         return draw_modes(self, numbers, cols, plane)
 
