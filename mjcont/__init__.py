@@ -54,12 +54,15 @@ if TYPE_CHECKING:
     from mjcont.oscillation.cycles import continue_cycles, find_cycle
     from mjcont.oscillation.forced import Harmonic
     from mjcont.oscillation.loci import continue_special
+    from mjcont.oscillation.modes import modes
     from mjcont.oscillation.responses import continue_response
+    from mjcont.oscillation.transfer import transfer
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
     from mjcont.results.branch import Branch, Diagram
     from mjcont.results.certificates import Certificate
     from mjcont.results.formats import load
     from mjcont.results.histories import History
+    from mjcont.results.linear import Mode, Modes, Transfer
     from mjcont.results.loadpaths import Jump, LoadPath, Segment
     from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
     from mjcont.results.orbits import CycleBranch, Orbit
@@ -98,7 +101,9 @@ _HOMES = {
     "mjcont.numerics.equations.settings": ("Settings",),
     "mjcont.oscillation.cycles": ("continue_cycles", "find_cycle"),
     "mjcont.oscillation.forced": ("Harmonic",),
+    "mjcont.oscillation.modes": ("modes",),
     "mjcont.oscillation.responses": ("continue_response",),
+    "mjcont.oscillation.transfer": ("transfer",),
     "mjcont.results.barriers": ("Barrier", "BarrierCurve", "BarrierMap"),
     "mjcont.results.branch": ("Branch", "Diagram"),
     "mjcont.results.certificates": ("Certificate",),
@@ -106,6 +111,7 @@ _HOMES = {
     "mjcont.results.histories": ("History",),
     "mjcont.results.loadpaths": ("Jump", "LoadPath", "Segment"),
     "mjcont.results.maps": ("FollowedPoint", "SpecialMap", "WorstCase"),
+    "mjcont.results.linear": ("Mode", "Modes", "Transfer"),
     "mjcont.results.orbits": ("CycleBranch", "Orbit"),
     "mjcont.results.points": ("Column", "Point", "SpecialPoint"),
     "mjcont.results.search": ("Equilibria", "Equilibrium"),
@@ -140,8 +146,10 @@ __all__ = [
     "LoadPath",
     "Mechanism",
     "MjcontError",
+    "Mode",
     "ModelError",
     "ModelWarning",
+    "Modes",
     "NameLookupError",
     "Orbit",
     "ParameterError",
@@ -158,6 +166,7 @@ __all__ = [
     "StiffnessStudy",
     "StudyError",
     "SweepTable",
+    "Transfer",
     "VectorField",
     "WorstCase",
     "add_bushes",
@@ -184,6 +193,7 @@ __all__ = [
     "load",
     "load_path",
     "load_study",
+    "modes",
     "plot",
     "plot_orbits",
     "run_study",
@@ -195,6 +205,7 @@ __all__ = [
     "stiffness_study",
     "sweep",
     "switch_branches",
+    "transfer",
     "verify_stability",
     "worst_case",
 ]

@@ -6,6 +6,7 @@ What a command needs is imported when it runs, so `mjcont --help` is quick.
 from __future__ import annotations
 
 import argparse
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -20,10 +21,13 @@ from mjcont.outside.terminal import complain, live_stream, say
 from mjcont.results.quantities import FRICTION
 
 if TYPE_CHECKING:
+    from mjcont.mechanism.mechanism import Mechanism
     from mjcont.results.branch import Branch
     from mjcont.results.points import Point
 
 OK, FAILED, USER_ERROR, INTERRUPTED = 0, 1, 2, 130
+# modes that `inspect` shows
+_MODES = 6
 _RESULT_SUFFIXES = (".h5", ".hdf5")
 
 
@@ -76,8 +80,24 @@ def _inspect(args: argparse.Namespace) -> int:
         with _warnings_as_lines():
             mechanism = Mechanism.from_xml(args.model, friction=args.friction or FRICTION[0])
         say(str(mechanism))
+        say("\n".join(["", "modes", *_mode_lines(mechanism)]))
         say("\n".join(["", "files that this model reads", *(f"  {name}" for name in files_read(args.model))]))
     return OK
+
+
+def _mode_lines(mechanism: Mechanism) -> list[str]:
+    """Return the slowest modes at the rest to which the model as loaded belongs, or why there are none."""
+    from mjcont.curves.continuation import find_equilibrium
+    from mjcont.oscillation.modes import modes
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            rest = find_equilibrium(mechanism)
+            found = modes(rest)
+    except MjcontError as error:
+        return [f"  {error}"]
+    return [f"  of the {rest.stability} rest that qpos0 belongs to", *found.table(_MODES), *found.notes]
 
 
 def _run(args: argparse.Namespace) -> int:

@@ -26,6 +26,7 @@ from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.branch import Branch
 from mjcont.results.histories import History
+from mjcont.results.linear import Mode
 from mjcont.results.orbits import Orbit, OrbitPoint, SpecialOrbit, orbit_of
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ _MOVING = "#d1281f"
 
 
 def animate(
-    result: Result | Orbits,
+    result: Result | Orbits | Mode,
     path: str | Path,
     x: str | None = None,
     y: str | None = None,
@@ -62,11 +63,12 @@ def animate(
     """Write an animation of a mechanism beside the moving point on its diagram, as GIF or MP4, and return its path.
 
     A history moves evenly in time. Along a branch, a locus or a load path the point moves evenly over the diagram; the
-    motions of a load path's jumps are shown, each at its own pace. An orbit loops through its period without a seam.
+    motions of a load path's jumps are shown, each at its own pace. An orbit loops through its period without a seam,
+    and so does a mode, its growth or decay left out.
 
     Parameters
     ----------
-    result : History, Branch, LoadPath, Orbit or a point of a curve of orbits
+    result : History, Branch, LoadPath, Orbit, Mode or a point of a curve of orbits
     path : a .gif, or an .mp4 where ffmpeg is installed.
     x, y : str, optional
         Columns of the diagram. Default time against the first observable for a history, else the parameter against
@@ -104,8 +106,10 @@ def animate(
         actor.close()
 
 
-def _period(result: Result | Orbits) -> tuple[Result, bool]:
-    """Return what is shown, of an orbit its history, and whether its last moment is its first."""
+def _period(result: Result | Orbits | Mode) -> tuple[Result, bool]:
+    """Return what is shown, of an orbit or a mode its history, and whether its last moment is its first."""
+    if isinstance(result, Mode):
+        return result.history(_SMOOTH), True
     return (orbit_of(result).history(_SMOOTH), True) if isinstance(result, Orbits) else (result, False)
 
 

@@ -145,6 +145,11 @@ def _unfit_activation(model: mujoco.MjModel) -> str:
     return ""
 
 
+def has_activations(mechanism: Mechanism) -> bool:
+    """Whether an actuator has a state of its own, which at rest follows its control."""
+    return bool(mechanism._core.loaded.na)
+
+
 def unfit_for_orbits(mechanism: Mechanism) -> str:
     """Return why a mechanism's periodic motion cannot be followed, with what to do; empty where it can."""
     m = mechanism._core.loaded

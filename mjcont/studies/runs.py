@@ -262,10 +262,33 @@ def _barrier(plan: Task, at: Running) -> Outcome:
     return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
 
 
+def _modes(plan: Task, at: Running) -> Outcome:
+    from mjcont.drawing.plotting import save_figure
+    from mjcont.oscillation.modes import modes
+
+    g = plan.given
+    found = modes(point_of(at.done, g["point"]))
+    files = [found.to_csv(at.folder / f"{plan.name}.csv")] if g["csv"] else []
+    return found, [*files, *([save_figure(found.plot(), at.folder / f"{plan.name}.png")] if g["png"] else [])]
+
+
+def _transfer(plan: Task, at: Running) -> Outcome:
+    import numpy as np
+
+    from mjcont.drawing.plotting import save_figure
+    from mjcont.oscillation.transfer import transfer
+
+    g = plan.given
+    hertz = np.geomspace(g["frequencies"][0], g["frequencies"][1], g["count"]) if g["frequencies"] else None
+    found = transfer(point_of(at.done, g["point"]), g["input"], g["output"] or None, hertz)
+    files = [found.to_csv(at.folder / f"{plan.name}.csv")] if g["csv"] else []
+    return found, [*files, *([save_figure(found.plot(), at.folder / f"{plan.name}.png")] if g["png"] else [])]
+
+
 _RUNS: Mapping[str, Callable[[Task, Running], Outcome]] = {
     "search": _search, "diagram": _diagram, "cycles": _cycles, "response": _response, "locus": _locus, "path": _path,
     "history": _history, "sensitivity": _sensitivity, "worst case": _worst, "map": _map, "certificate": _certificate,
-    "barrier": _barrier,
+    "barrier": _barrier, "modes": _modes, "transfer": _transfer,
 }
 
 

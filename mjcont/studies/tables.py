@@ -18,6 +18,7 @@ from mjcont.results.quantities import column_of
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
 from mjcont.studies.keys import Context, Key, Kind
+from mjcont.studies.linear import MODES, TRANSFER
 from mjcont.studies.orbits import CYCLES, ORBITS, RESPONSES, check_plotted, default_curves, plotted
 from mjcont.studies.schema import Table
 from mjcont.studies.waveforms import read_input
@@ -360,7 +361,7 @@ PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
 KINDS = {
     "search": SEARCH, "branch": BRANCH, "diagram": DIAGRAM, "cycles": CYCLES, "response": RESPONSES, "locus": LOCUS,
     "path": PATH, "history": HISTORY, "sensitivity": SENSITIVITY, "worst case": WORST, "map": MAP,
-    "certificate": CERTIFICATE, "barrier": BARRIER,
+    "certificate": CERTIFICATE, "barrier": BARRIER, "modes": MODES, "transfer": TRANSFER,
 }
 
 

@@ -55,6 +55,13 @@ grid = { k = [900, 1100] }
 [[certificates]]
 name = "certified"
 branch = "ways_1"
+[[modes]]
+name = "small"
+point = "equilibria:start"
+[[transfers]]
+name = "bode"
+point = "equilibria:start"
+input = "P"
 [[barriers]]
 name = "barrier"
 branch = "equilibria"

@@ -278,3 +278,38 @@ def test_branches_start_from_points_of_earlier_results(tmp_path: Path) -> None:
     )
     assert branch.row(branch.start_index)["z"] == pytest.approx(found.point("E1")["z"], abs=1e-10)
     assert branch.row(branch.start_index)["P"] == 30.0
+
+
+def test_modes_and_transfer_functions_of_a_point_are_tabled_and_drawn(tmp_path: Path) -> None:
+    branch, found, bode = run(
+        tmp_path,
+        TRUSS
+        + """
+    [[branch]]
+    name = "equilibria"
+    parameter = "P"
+    bounds = [-50, 300]
+    keyframe = "unloaded"
+    direction = 1
+    [[modes]]
+    name = "small"
+    point = "equilibria:LP1"
+    png = true
+    [[transfers]]
+    name = "bode"
+    point = "equilibria:start"
+    input = "P"
+    output = ["z"]
+    frequencies = ["0.1 Hz", 10]
+    count = 5
+    """,
+    )
+    start = branch.row(branch.start_index)
+    np.testing.assert_array_equal(bode["z"], mc.transfer(start, "P", "z", np.geomspace(0.1, 10, 5))["z"])
+    assert len(rows(tmp_path / "out" / "bode.csv")) == 5
+    assert (tmp_path / "out" / "bode.png").stat().st_size > 2000
+    assert found.point.parameters["P"] == branch.point("LP1").parameters["P"]
+    slowest = rows(tmp_path / "out" / "small.csv")[0]
+    assert float(slowest["frequency [Hz]"]) == found[0].frequency
+    assert abs(found[0].eigenvalue) < 1e-3 * abs(found[1].eigenvalue)  # at a fold K is singular
+    assert (tmp_path / "out" / "small.png").stat().st_size > 2000

@@ -22,7 +22,7 @@ from mjcont.numerics.equations.problem import Array, Pencil
 
 STABLE, UNSTABLE, MARGINAL = "stable", "unstable", "marginal"
 _SYMMETRY_NOISE = 1e-8
-_DIFFERENCE_NOISE = 1e-10
+DIFFERENCE_NOISE = 1e-10
 _ROUNDING = 1e-13
 _EIGENSOLVER = 1e-15
 # eigenvalues nearest the axis that are sought of a sparse matrix, and its size up to which all are
@@ -104,7 +104,7 @@ def _noise_bound(mass: Array, stiffness: Array, ev: Array) -> tuple[Array, Array
     """
     lightest = float(np.abs(np.diag(mass)).min())
     rate = np.maximum(np.abs(ev), max(np.sqrt(np.median(np.abs(ev))), 1e-300))
-    square = _DIFFERENCE_NOISE * np.abs(stiffness).max() / max(lightest, 1e-300)
+    square = DIFFERENCE_NOISE * np.abs(stiffness).max() / max(lightest, 1e-300)
     return np.minimum(square / rate, 1e-2 * np.abs(ev) + 1e-12), np.abs(ev) ** 2 <= square
 
 
@@ -172,7 +172,7 @@ def _conservative(mass: Array, damping: Array, stiffness: Array) -> list[Spectru
         if np.isnan(squares).any() or np.isnan(ev).any():
             found.append(_undefined(len(ev)))
             continue
-        noise = _DIFFERENCE_NOISE * np.abs(k).max() / np.diag(m).max()
+        noise = DIFFERENCE_NOISE * np.abs(k).max() / np.diag(m).max()
         negative = int(np.count_nonzero(squares < -noise))
         rounding = _ROUNDING * float(np.abs(ev).max(initial=0.0))
         margin = np.full(len(ev), rounding)

@@ -1,0 +1,93 @@
+"""Linear transfer functions of an equilibrium: columns of gain and phase, as a summary, as CSV and as Bode plots."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mjcont.errors import unknown_name
+from mjcont.numerics.equations.problem import Array
+from mjcont.outside import csvfiles
+from mjcont.results.points import Point
+
+
+@dataclass(frozen=True, slots=True)
+class Transfer:
+    """What observables do per unit of a parameter that swings: p + cos(w t) gives y + Re H exp(i w t), to first order.
+
+    Attributes
+    ----------
+    point : the equilibrium.
+    input : name of the parameter that swings.
+    outputs : names of the observables.
+    frequencies : (m,) in Hz, rising.
+    responses : (m, number of outputs) complex, SI and radians.
+    stable : whether the equilibrium is stable; if not, no motion of the model shows these numbers unless it is held.
+    units : mapping of the input and every output to its unit.
+    notes : sentences.
+    """
+
+    point: Point
+    input: str
+    outputs: tuple[str, ...]
+    frequencies: Array
+    responses: Array = field(repr=False)
+    stable: bool
+    units: Mapping[str, str] = field(repr=False)
+    notes: Sequence[str] = ()
+
+    def __getitem__(self, name: str) -> Array:
+        """Return the complex transfer function of an output, (m,)."""
+        if name not in self.outputs:
+            raise unknown_name("output", name, self.outputs)
+        return np.asarray(self.responses[:, self.outputs.index(name)])
+
+    def gain(self, name: str) -> Array:
+        """Return |H| of an output, (m,), in its unit per unit of the input."""
+        return np.abs(self[name])
+
+    def phase(self, name: str) -> Array:
+        """Return the phase of an output in rad, (m,), without jumps by full turns."""
+        return np.unwrap(np.angle(self[name]))
+
+    def peak(self, name: str) -> tuple[float, float]:
+        """Return the frequency in Hz, of those here, at which an output's gain is largest, and that gain."""
+        gain = self.gain(name)
+        k = int(np.nanargmax(gain)) if np.isfinite(gain).any() else 0
+        return float(self.frequencies[k]), float(gain[k])
+
+    def to_csv(self, path: str | Path) -> Path:
+        """Write a row a frequency: gain and phase of every output; SI and radians."""
+        head = ["frequency [Hz]"]
+        for name in self.outputs:
+            head += [f"gain of {name} [{self._unit(name)}]", f"phase of {name} [rad]"]
+        columns = [c for name in self.outputs for c in (self.gain(name), self.phase(name))]
+        rows = [[float(f), *(float(c[i]) for c in columns)] for i, f in enumerate(self.frequencies)]
+        return csvfiles.write_table(path, head, rows)
+
+    def _unit(self, name: str) -> str:
+        top, bottom = self.units[name] or "1", self.units[self.input] or "1"
+        return top if bottom == "1" else f"{top}/({bottom})" if any(c in bottom for c in "/* ") else f"{top}/{bottom}"
+
+    def plot(self, *, decibels: bool = False, degrees: bool = True) -> Any:
+        """Draw gain and phase against frequency, dashed where the equilibrium is unstable; return the figure."""
+        from mjcont.drawing.linear import draw_transfer
+
+        return draw_transfer(self, decibels, degrees)
+
+    def __str__(self) -> str:
+        """Return the largest gain of each output."""
+        kind = "stable" if self.stable else "not stable"
+        lines = [f"{self.point.model.name}: {len(self.frequencies)} frequencies from {self.frequencies[0]:.6g} to "
+                 f"{self.frequencies[-1]:.6g} Hz, {self.input} swings; the equilibrium is {kind}"]
+        for name in self.outputs:
+            at, gain = self.peak(name)
+            shown = math.degrees(gain) if self.units[name] == "rad" else gain
+            unit = self._unit(name).replace("rad", "deg", 1) if self.units[name] == "rad" else self._unit(name)
+            lines.append(f"  {name}: largest {shown:.6g} {unit} at {at:.6g} Hz")
+        return "\n".join([*lines, *(f"  note: {n}" for n in self.notes)])
