@@ -6,12 +6,13 @@ What a command needs is imported when it runs, so `mjcont --help` is quick.
 from __future__ import annotations
 
 import argparse
+import shlex
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mjcont.commands import animate
+from mjcont.commands import animate, first
 from mjcont.commands.arguments import parser
 from mjcont.errors import MjcontError, ModelError, ResultFileError
 from mjcont.outside.interrupts import ended_by, termination_unwinds
@@ -77,6 +78,7 @@ def _inspect(args: argparse.Namespace) -> int:
             mechanism = Mechanism.from_xml(args.model, friction=args.friction or FRICTION[0])
         say(str(mechanism))
         say("\n".join(["", "files that this model reads", *(f"  {name}" for name in files_read(args.model))]))
+        say(f"\nnext: mjcont init {shlex.quote(args.model)}")
     return OK
 
 
@@ -340,7 +342,28 @@ def _animate(args: argparse.Namespace) -> int:
     return animate.run(args, say)
 
 
+def _init(args: argparse.Namespace) -> int:
+    with _warnings_as_lines():
+        first.init(args, say)
+    return OK
+
+
+def _compare(args: argparse.Namespace) -> int:
+    with _warnings_as_lines():
+        first.compare(args, say)
+    return OK
+
+
+def _answer(args: argparse.Namespace) -> int:
+    with _warnings_as_lines():
+        first.answer(args, say)
+    return OK
+
+
 _COMMANDS = {
+    "answer": _answer,
+    "compare": _compare,
+    "init": _init,
     "inspect": _inspect,
     "run": _run,
     "check": _check,

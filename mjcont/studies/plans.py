@@ -16,6 +16,7 @@ from mjcont.errors import StudyError, did_you_mean, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.loading import shipped_folder, shipped_models
 from mjcont.results.quantities import FRICTION
+from mjcont.studies.answers import AnswerPlan, read_answer
 from mjcont.studies.keys import Context, Reference, about, check_keys, pair, read, value_table
 from mjcont.studies.schema import Table
 from mjcont.studies.sweeps import read_sweep
@@ -27,6 +28,7 @@ __all__ = ["PLOT_SUFFIXES", "BranchPlan", "PlotPlan", "Study", "Task", "check_st
 STUDY_VERSION = 1
 TOP = (
     "version", "model", "friction", "parameters", "declare", *(kind.table for kind in KINDS.values()), "plot", "sweep",
+    "answer",
 )
 _NAME = re.compile(r"[A-Za-z_]\w*")
 
@@ -81,6 +83,7 @@ class Study:
     tasks: tuple[Task, ...] = ()
     sweep: SweepPlan | None = None
     friction: str = FRICTION[0]
+    answer: AnswerPlan | None = None
 
     @property
     def plans(self) -> tuple[BranchPlan | Task, ...]:
@@ -230,7 +233,8 @@ def _assemble(root: Table, context: Context, friction: str | None) -> Study:
         asked = friction or root.text("friction", FRICTION[0])
         if context.mechanism is not None:
             sweep = read_sweep(root, context.mechanism, tuple(branches))
-    return Study(root.file, context.mechanism, tuple(branches), tuple(plots), tuple(tasks), sweep, asked)
+    answer = read_answer(root, context)
+    return Study(root.file, context.mechanism, tuple(branches), tuple(plots), tuple(tasks), sweep, asked, answer)
 
 
 def _tables(root: Table, key: str, context: Context) -> Sequence[Table]:
