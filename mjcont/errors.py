@@ -73,7 +73,7 @@ def did_you_mean(name: str, valid: Iterable[str]) -> str:
     plain: dict[str, list[str]] = {}
     for choice in valid:
         plain.setdefault(_plain(choice), []).append(choice)
-    close = difflib.get_close_matches(_plain(name), sorted(plain), n=3, cutoff=0.6) if _plain(name) else []
+    close = difflib.get_close_matches(_plain(str(name)), sorted(plain), n=3, cutoff=0.6)
     found = [choice for word in close for choice in sorted(plain[word])][:3]
     return f" Did you mean {' or '.join(found)}?" if found else ""
 

@@ -126,6 +126,9 @@ def _results(command: Command) -> None:
     p.add_argument("-y", metavar="COL", required=True, help="column along the vertical axis")
     p.add_argument("-o", "--out", type=place, metavar="FILE",
                    help="png, pdf or svg (default: FILE.png beside the first input)")
+    p.add_argument("--units", metavar="UNITS", default="", help="units of the axes that they fit, such as kN,mm")
+    p.add_argument("--title", metavar="TEXT", default="")
+    p.add_argument("--no-legend", dest="legend", action="store_false", help="no key to line styles and markers")
     p.add_argument("--no-labels", dest="labels", action="store_false", help="leave out LP1, HB1, ...")
     p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
 

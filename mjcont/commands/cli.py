@@ -128,7 +128,8 @@ def _plot(args: argparse.Namespace) -> int:
         for column in (args.x, args.y):
             with _naming(file):
                 _ = [branch[name] for name in (branch.drawn(column) if isinstance(branch, Branch) else [column])]
-    axes: Any = plot(*branches, x=args.x, y=args.y, labels=args.labels, degrees=args.degrees)
+    axes: Any = plot(*branches, x=args.x, y=args.y, labels=args.labels, degrees=args.degrees, title=args.title,
+                     units=[u for u in args.units.split(",") if u], key=args.legend, legend=args.legend and None)
     save_figure(axes.figure, out)
     say(f"plot: {out}")
     return OK

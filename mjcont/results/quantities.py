@@ -168,7 +168,8 @@ class Parameter:
         A range that nobody declared says nothing, but of an angle: beyond a turn it is likely one in degrees.
         """
         low, high = self.bounds
-        stated = self.stated and self.bounds != default_bounds(self.value, self.unit)
+        guesses = (default_bounds(self.value, self.unit), default_bounds(self.value))
+        stated = self.kind not in ("switch", "gravity") and not self.springs and self.bounds not in guesses
         if self.unit == "rad" and not stated:
             low, high = -2.0 * math.pi, 2.0 * math.pi
         elif not stated:
@@ -182,11 +183,6 @@ class Parameter:
         hint = mistaken(far, self.unit, low, high)
         return (f"{self.name} = {shown} lies outside {'its range' if stated else 'a turn'}, {start} to {end}"
                 + (f': did you mean "{hint}"?' if hint else ""))
-
-    @property
-    def stated(self) -> bool:
-        """Whether somebody may have declared its range."""
-        return self.kind not in ("switch", "gravity")
 
     @property
     def needs_constants(self) -> bool:

@@ -73,7 +73,7 @@ class Comparison:
         both = next((c for c in self.curves if c.name == name), self.curves[0])
         x = x or next(iter(both.old.free))
         y = y or next((n for n, c in both.old.columns.items() if c.role == "observable"), x)
-        return plot(both.old, both.new, x=x, y=y, ax=ax, legend=list(self.names))
+        return plot(both.old, both.new, x=x, y=y, ax=ax, legend=list(self.names), key=True)
 
     def __str__(self) -> str:
         """Return what changed, a line each."""

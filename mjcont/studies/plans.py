@@ -70,6 +70,8 @@ class PlotPlan:
     title: str = ""
     labels: bool = True
     degrees: bool = True
+    units: tuple[str, ...] = ()
+    legend: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -116,7 +116,7 @@ def test_help_needs_neither_matplotlib_nor_the_viewer() -> None:
 def test_inspect_prints_the_mechanism(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["inspect", "overcentre"]) == 0
     files = "\nfiles that this model reads\n  overcentre.xml\n"
-    assert capsys.readouterr().out == f"{mc.Mechanism.from_xml('overcentre')}\n{files}"
+    assert capsys.readouterr().out == f"{mc.Mechanism.from_xml('overcentre')}\n{files}\nnext: mjcont init overcentre\n"
 
 
 def test_inspect_prints_the_summary_of_a_result(stored: Path, capsys: pytest.CaptureFixture[str]) -> None:

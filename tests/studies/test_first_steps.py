@@ -121,7 +121,8 @@ def test_points_that_only_one_curve_has_vanished_or_appeared(compared):
 
 def test_the_picture_shows_both_curves_under_their_names(compared):
     ax = compared.plot()
-    assert [t.get_text() for t in ax.get_legend().get_texts()] == ["old.xml", "new.xml"]
+    words = [t.get_text() for t in ax.get_legend().get_texts()]
+    assert words == ["old.xml", "new.xml", "stable", "unstable", "LP: fold"]
     drawn = [line for line in ax.lines if line.get_label() == "_curve" and len(line.get_xdata()) > 1]
     assert len({line.get_color() for line in drawn}) == 2
 
