@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 
 import mjcont as mc
-from mjcont.drawing.plotting import mark, new_figure, place_labels, save_figure, set_panel_title
+from mjcont.drawing.notes import place_labels
+from mjcont.drawing.plotting import mark, new_figure, save_figure, set_panel_title
 
 OUT = Path(__file__).parent / "images"
 

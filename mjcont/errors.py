@@ -49,6 +49,10 @@ class ModelWarning(UserWarning):
     """A feature of a model that is left out, with the reason."""
 
 
+class RangeWarning(UserWarning):
+    """A value outside the range that its parameter declares, often one in another unit."""
+
+
 class ResultWarning(UserWarning):
     """A stored result whose damage would not be seen: it was written without checksums."""
 
@@ -61,10 +65,25 @@ def leaves_domain(error: Exception) -> bool:
     )
 
 
+def did_you_mean(name: str, valid: Iterable[str]) -> str:
+    """Return the question which of `valid` was meant, with a space before it; empty where none is close.
+
+    Case makes no difference, nor do a few letters, nor whether dashes, dots, blanks or underscores join words.
+    """
+    plain: dict[str, list[str]] = {}
+    for choice in valid:
+        plain.setdefault(_plain(choice), []).append(choice)
+    close = difflib.get_close_matches(_plain(str(name)), sorted(plain), n=3, cutoff=0.6)
+    found = [choice for word in close for choice in sorted(plain[word])][:3]
+    return f" Did you mean {' or '.join(found)}?" if found else ""
+
+
+def _plain(name: str) -> str:
+    return "".join(" " if c in "-_. " else c for c in name.casefold()).strip()
+
+
 def unknown_name(kind: str, name: str, valid: Iterable[str]) -> NameLookupError:
     """Return the error for `name`, which is not among `valid`: close matches first, then the whole list."""
     choices = sorted(valid)
-    close = difflib.get_close_matches(name, choices, n=3, cutoff=0.6)
-    hint = f" Did you mean {' or '.join(close)}?" if close else ""
     listing = ", ".join(choices) if choices else "none"
-    return NameLookupError(f"unknown {kind} '{name}'.{hint} Valid: {listing}.")
+    return NameLookupError(f"unknown {kind} '{name}'.{did_you_mean(name, choices)} Valid: {listing}.")

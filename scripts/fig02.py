@@ -13,7 +13,8 @@ import numpy as np
 from _overcentre import BOUNDS, LABELS, equilibria, overcentre
 
 import mjcont as mc
-from mjcont.drawing.plotting import COLORS, new_figure, place_labels, plot, save_figure, set_panel_title
+from mjcont.drawing.notes import place_labels
+from mjcont.drawing.plotting import COLORS, new_figure, plot, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script
 

@@ -15,6 +15,7 @@ Command = Callable[[str, str], argparse.ArgumentParser]
 
 _EXAMPLES = """examples:
   mjcont inspect overcentre                     what can be continued, what can be read, where to start
+  mjcont init my_model.xml                      write a first study of a model
   mjcont run studies/overcentre.toml -o out     compute a study's branches, store them, draw its plots
   mjcont check studies/overcentre.toml          everything that is wrong with a study, before it runs
   mjcont plot out/equilibria.h5 -x F -y theta_1
@@ -60,6 +61,11 @@ def _models(command: Command) -> None:
     p.add_argument("model", metavar="MODEL|FILE.h5", help=_MODEL_HELP + "; or a result file")
     p.add_argument("--friction", choices=FRICTION, help=_FRICTION_HELP)
 
+    p = command("init", "write a first study of a model, with comments, that runs")
+    p.add_argument("model", metavar="MODEL", help=_MODEL_HELP)
+    p.add_argument("-o", "--out", type=place, metavar="STUDY.toml", help="default: MODEL.toml in this folder")
+    p.add_argument("--force", action="store_true", help="replace a file that is there")
+
     p = command("view", "open MuJoCo's viewer at a pose")
     p.add_argument("model", metavar="MODEL|FILE.h5", help=_MODEL_HELP + "; or a result file")
     pose = p.add_mutually_exclusive_group()
@@ -86,13 +92,26 @@ def _models(command: Command) -> None:
 def _studies(command: Command) -> None:
     """Add what works on studies."""
     p = command("run", "run a study: compute its branches, store them, draw its plots")
-    p.add_argument("study", metavar="STUDY.toml", help="the study file (docs/studies.md)")
+    p.add_argument("study", metavar="STUDY.toml", help="a study file, or one that ships with mjcont")
     p.add_argument("-o", "--out", type=place, metavar="DIR", default="out", help="folder for results (default: out)")
     p.add_argument("--friction", choices=FRICTION, help=_FRICTION_HELP + " or the study's own")
     p.add_argument("-q", "--quiet", action="store_true", help="print errors only")
 
     p = command("check", "tell everything that is wrong with a study, and what it would compute")
     p.add_argument("study", metavar="STUDY.toml")
+    p.add_argument("--friction", choices=FRICTION, help=_FRICTION_HELP + " or the study's own")
+
+    p = command("compare", "tell what changed between two models, studies or results, and in their answers")
+    p.add_argument("old", metavar="OLD", help="an MJCF file, a study or a result file")
+    p.add_argument("new", metavar="NEW", help="another of the same kind")
+    p.add_argument("-o", "--out", type=place, metavar="FILE", default="compare.png",
+                   help="the picture of both: png, pdf or svg (default: compare.png)")
+    p.add_argument("-x", metavar="COL", default="", help="column along the horizontal axis (default: the parameter)")
+    p.add_argument("-y", metavar="COL", default="", help="column along the vertical axis (default: an observable)")
+
+    p = command("answer", "run a study and tell what its table [answer] asks: where it locks, unlocks, margins")
+    p.add_argument("study", metavar="STUDY.toml")
+    p.add_argument("-o", "--out", type=place, metavar="DIR", default="out", help="folder for results (default: out)")
     p.add_argument("--friction", choices=FRICTION, help=_FRICTION_HELP + " or the study's own")
 
     p = command("sweep", "compute a study's special points for many variants of its model; resumable")
@@ -107,6 +126,9 @@ def _results(command: Command) -> None:
     p.add_argument("-y", metavar="COL", required=True, help="column along the vertical axis")
     p.add_argument("-o", "--out", type=place, metavar="FILE",
                    help="png, pdf or svg (default: FILE.png beside the first input)")
+    p.add_argument("--units", metavar="UNITS", default="", help="units of the axes that they fit, such as kN,mm")
+    p.add_argument("--title", metavar="TEXT", default="")
+    p.add_argument("--no-legend", dest="legend", action="store_false", help="no key to line styles and markers")
     p.add_argument("--no-labels", dest="labels", action="store_false", help="leave out LP1, HB1, ...")
     p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
 

@@ -6,13 +6,14 @@ What a command needs is imported when it runs, so `mjcont --help` is quick.
 from __future__ import annotations
 
 import argparse
+import shlex
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mjcont.commands import animate
+from mjcont.commands import animate, first
 from mjcont.commands.arguments import parser
 from mjcont.errors import MjcontError, ModelError, ResultFileError
 from mjcont.outside.interrupts import ended_by, termination_unwinds
@@ -82,6 +83,7 @@ def _inspect(args: argparse.Namespace) -> int:
         say(str(mechanism))
         say("\n".join(["", "modes", *_mode_lines(mechanism)]))
         say("\n".join(["", "files that this model reads", *(f"  {name}" for name in files_read(args.model))]))
+        say(f"\nnext: mjcont init {shlex.quote(args.model)}")
     return OK
 
 
@@ -146,7 +148,8 @@ def _plot(args: argparse.Namespace) -> int:
         for column in (args.x, args.y):
             with _naming(file):
                 _ = [branch[name] for name in (branch.drawn(column) if isinstance(branch, Branch) else [column])]
-    axes: Any = plot(*branches, x=args.x, y=args.y, labels=args.labels, degrees=args.degrees)
+    axes: Any = plot(*branches, x=args.x, y=args.y, labels=args.labels, degrees=args.degrees, title=args.title,
+                     units=[u for u in args.units.split(",") if u], key=args.legend, legend=args.legend and None)
     save_figure(axes.figure, out)
     say(f"plot: {out}")
     return OK
@@ -360,7 +363,28 @@ def _animate(args: argparse.Namespace) -> int:
     return animate.run(args, say)
 
 
+def _init(args: argparse.Namespace) -> int:
+    with _warnings_as_lines():
+        first.init(args, say)
+    return OK
+
+
+def _compare(args: argparse.Namespace) -> int:
+    with _warnings_as_lines():
+        first.compare(args, say)
+    return OK
+
+
+def _answer(args: argparse.Namespace) -> int:
+    with _warnings_as_lines():
+        first.answer(args, say)
+    return OK
+
+
 _COMMANDS = {
+    "answer": _answer,
+    "compare": _compare,
+    "init": _init,
     "inspect": _inspect,
     "run": _run,
     "check": _check,

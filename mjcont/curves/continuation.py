@@ -26,7 +26,7 @@ from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.steps import End, Item, Status
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
-from mjcont.results.model import Model, check_bounds, model_of
+from mjcont.results.model import Model, check_bounds, model_of, warn_outside
 from mjcont.results.points import Point, SpecialPoint, show
 from mjcont.results.quantities import column_of, meant_each
 
@@ -54,7 +54,9 @@ def start_from(
         return problem.start_state(keyframe, start.state if state is None else state), problem.values(known)
     if start is not None and not isinstance(start, Mapping):
         raise ParameterError(f"start must be a dict of parameter values or a point, got {type(start).__name__}")
-    return problem.start_state(keyframe, state), problem.values(start)
+    values = problem.values(start)
+    warn_outside(problem, start or {})
+    return problem.start_state(keyframe, state), values
 
 
 @np.errstate(all="ignore")

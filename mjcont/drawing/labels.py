@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont.drawing import plotting
+from mjcont.drawing import notes
 from mjcont.drawing.picture import Force, Picture, Spring
 from mjcont.drawing.shapes import Shape
 from mjcont.drawing.sketch import FORCE, INK, arrow
@@ -34,7 +34,7 @@ def write_labels(ax: Axes, shown: Picture, unit: float, labels: Labels, scale: f
     from matplotlib.patheffects import withStroke
 
     halo = [withStroke(linewidth=2.0 * scale, foreground="white")]
-    ink = plotting.drawn_points(ax)[::2]
+    ink = notes.drawn_points(ax)[::2]
     taken = [_rectangle(t) for t in ax.texts if t.get_text()]
     written = set()
     for kind, name, places, color in _names(shown, unit):

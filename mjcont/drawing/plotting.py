@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont.drawing.axes import axis_label
+from mjcont.drawing.axes import show_axis
 from mjcont.drawing.loadpaths import draw_path
+from mjcont.drawing.notes import LABEL, place_labels, xy
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
-from mjcont.numerics.points.kinds import KINDS
+from mjcont.numerics.points.kinds import KINDS, name_of
 from mjcont.outside.escapes import for_picture
 from mjcont.outside.saving import write_file
 from mjcont.results.branch import Branch
@@ -29,7 +30,6 @@ from mjcont.results.quantities import column_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from matplotlib.lines import Line2D
 
 Line = tuple[Array, Array, Collection[int]]
 COLORS = ("#1b4f8a", "#c4541a", "#2a7d5f", "#7b3fa0", "#8a6d1b", "#b02a4a", "#4d4d4d")
@@ -46,12 +46,6 @@ STYLE: Any = {
     "grid.linewidth": 0.6,
     "legend.fontsize": 8.5,
 }
-_LABEL = "_special point"
-# Where a label is tried, best first: beside, above, below, then slanting; gaps and clearance in points.
-_SIXTEENTHS = (0, 8, 4, 12, 2, 6, 10, 14, 1, 7, 9, 15, 3, 5, 11, 13)
-_DIRECTIONS = [np.array([np.cos(k * np.pi / 8), np.sin(k * np.pi / 8)]) for k in _SIXTEENTHS]
-_GAPS = (5.0, 9.0, 14.0, 20.0)
-_CLEARANCE = 5.0
 
 
 def new_figure(
@@ -77,7 +71,7 @@ def set_panel_title(ax: Axes, text: str) -> None:
 
 
 def plot(
-    *curves: Branch | LoadPath,
+    *curves: Branch | LoadPath | Iterable[Branch | LoadPath],
     x: str,
     y: str,
     ax: Axes | None = None,
@@ -86,35 +80,38 @@ def plot(
     colors: Sequence[str] | None = None,
     legend: Sequence[str] | bool | None = None,
     wrap: bool = True,
+    title: str = "",
+    units: str | Sequence[str] = (),
+    key: bool = False,
 ) -> Axes:
     """Draw branches and loci: solid where stable, dashed where unstable, dotted where marginal; loci solid.
 
-    Of orbits an observable is drawn by its largest and smallest value, so that they lie over equilibria. A load path is
-    a broad line with arrows over them, its jumps are dotted arrows.
+    Of orbits an observable is drawn by its largest and smallest value. A load path is a broad line with arrows.
 
     Parameters
     ----------
-    *curves : Branch or LoadPath
+    *curves : Branch or LoadPath, or a Diagram or list of them
     x, y : str
         Columns: parameters or observables; `y` of a curve of orbits may be an observable or one of its columns.
-    ax : matplotlib Axes, optional
-        Where to draw; default a new figure, which is `plot(...).figure`. It needs no display.
+    ax : matplotlib Axes, optional; default those of a new figure, which is `plot(...).figure`.
     degrees : whether angles are drawn in degrees.
     labels : bool, or mapping such as `{"LP1": "FP2"}` that renames some special points
-    colors : sequence of matplotlib colours, optional
-        One a branch, repeated if there are fewer.
+    colors : sequence of matplotlib colours, one a branch, repeated if there are fewer.
     legend : sequence of str, or bool, optional
-        Names of the branches. By default several branches are named by what differs between them; True also
-        explains the line styles, False leaves the legend out.
+        Names of the branches, by default what differs between them; True also explains line styles, False is none.
     wrap : whether the line breaks where an angle jumps by more than half a turn.
+    title : str, optional
+    units : str or sequence of str, such as ("kN", "mm"): each is that of the axes that it fits.
+    key : whether the legend explains line styles and markers.
 
     Raises
     ------
     NameLookupError
         If a branch has no such column; the message lists those it has.
     """
-    paths = [c for c in curves if isinstance(c, LoadPath)]
-    branches = [c for c in curves if not isinstance(c, LoadPath)]
+    each = each_curve(curves)
+    paths = [c for c in each if isinstance(c, LoadPath)]
+    branches = [c for c in each if not isinstance(c, LoadPath)]
     _check(branches, legend, bool(paths))
     for path in paths:
         _ = path[x], path[y]
@@ -122,20 +119,32 @@ def plot(
     data = [_lines(b, x, y, degrees, wrap) for b in branches]
     if ax is None:
         _, ax = new_figure()
-    drawn = sum(len(_xy(line)) == 0 for line in ax.lines)
+    _draw_all(ax, branches, paths, data, (x, y), degrees, labels, colors, _names(branches, legend))
+    for axis, name in ((ax.xaxis, x), (ax.yaxis, y)):
+        show_axis(axis, name, _common_unit(each, name), units, degrees)
+    if title:
+        set_panel_title(ax, title)
+    _explain(ax, branches, legend, key)
+    place_labels(ax)
+    return ax
+
+
+def _draw_all(
+    ax: Axes, branches: Sequence[Branch], paths: Sequence[LoadPath], data: Sequence[Sequence[Line]],
+    axes: tuple[str, str], degrees: bool, labels: bool | Mapping[str, str], colors: Sequence[str] | None,
+    names: Sequence[str],
+) -> None:
+    """Draw branches, each in a colour of its own under its name, and load paths over them."""
+    drawn = sum(len(xy(line)) == 0 for line in ax.lines)
     palette = colors or [COLORS[(drawn + i) % len(COLORS)] for i in range(len(branches))]
-    for i, (branch, name, lines) in enumerate(zip(branches, _names(branches, legend), data, strict=True)):
+    for i, (branch, name, lines) in enumerate(zip(branches, names, data, strict=True)):
         color = palette[i % len(palette)]
         # An empty line carries the branch's name: its first piece may be dashed, and it counts the colours used.
         ax.plot([], [], color=color, label=name or "_branch")
         _draw_branch(ax, branch, lines, labels, color)
     for i, path in enumerate(paths):
         color = (colors or COLORS[1:])[(len(branches) * bool(colors) + i) % len(colors or COLORS[1:])]
-        draw_path(ax, path, x, y, degrees=degrees, color=color, labels=labels is not False and not branches)
-    ax.set(xlabel=_axis_label(curves, x, degrees), ylabel=_axis_label(curves, y, degrees))
-    _explain(ax, branches, legend)
-    place_labels(ax)
-    return ax
+        draw_path(ax, path, *axes, degrees=degrees, color=color, labels=labels is not False and not branches)
 
 
 def _draw_branch(
@@ -147,12 +156,28 @@ def _draw_branch(
         draw_points(ax, xs, ys, branch.special_points, labels=labels if k == 0 else False, color=color)
 
 
-def _explain(ax: Axes, branches: Iterable[Branch], legend: Sequence[str] | bool | None) -> None:
-    """Add the legend, with the line styles on request."""
-    if legend is True:
+def each_curve(curves: Iterable[Any]) -> list[Any]:
+    """Return curves one by one: diagrams and lists of them are taken apart."""
+    found: list[Any] = []
+    for c in curves:
+        found += [c] if isinstance(c, Branch | LoadPath) or not isinstance(c, Iterable) else each_curve(c)
+    return found
+
+
+def _explain(ax: Axes, branches: Iterable[Branch], legend: Sequence[str] | bool | None, key: bool) -> None:
+    """Add the legend, with the line styles on request, and what markers mean with a key."""
+    if legend is False:
+        return
+    if legend is True or key:
         _explain_styles(ax, branches)
-    if any(not str(line.get_label()).startswith("_") for line in ax.lines) and legend is not False:
-        ax.legend(frameon=True, framealpha=0.85, edgecolor="none", fontsize=8.5)
+    if key:
+        kinds = dict.fromkeys(p.kind for b in branches for p in b.special_points if p.kind in MARKERS)
+        for kind in kinds:
+            shape, size = MARKERS[kind]
+            ax.plot([], [], marker=shape, markersize=size, linestyle="none", color=GREY if kind == "UZ" else "black",
+                    label=f"{kind}: {name_of(kind)}")
+    if any(not str(line.get_label()).startswith("_") for line in ax.lines):
+        ax.legend(frameon=True, framealpha=0.85, edgecolor="none", fontsize=8.5, loc="best")
 
 
 def _explain_styles(ax: Axes, branches: Iterable[Branch]) -> None:
@@ -247,55 +272,7 @@ def mark(
     if text:
         note = ax.annotate(text, (x, y), (0.0, 9.0), textcoords="offset points", ha="center", va="center",
                            fontsize=8.5, color=color, zorder=5)
-        note.set_label(_LABEL)
-
-
-def place_labels(ax: Axes) -> None:
-    """Move the labels of special points off curves, markers and each other; call it again after changing limits."""
-    notes = [t for t in ax.texts if t.get_label() == _LABEL and t.get_visible()]
-    if not notes:
-        return
-    ax.get_xlim(), ax.get_ylim()  # noqa: B018 - reading the limits makes matplotlib settle them
-    figure = ax.get_figure(root=True)
-    point = (figure.dpi if figure is not None else 72.0) / 72.0
-    ink, frame = drawn_points(ax), ax.bbox
-    taken: list[Array] = []
-    for note in notes:
-        extent = note.get_window_extent()
-        half = 0.5 * np.array([extent.width, extent.height])
-        anchor = ax.transData.transform(note.xy)  # type: ignore[attr-defined]
-        if not frame.contains(*anchor):
-            continue
-        best, cost = np.zeros(2), np.inf
-        for gap in _GAPS:
-            for d in _DIRECTIONS:
-                offset = d * (gap * point + half @ np.abs(d))
-                low, high = anchor + offset - half, anchor + offset + half
-                away = np.hypot(*np.maximum(np.maximum(low - ink, ink - high), 0.0).T).min(initial=np.inf) / point
-                clashes = sum(bool(np.all(low < b[1]) and np.all(b[0] < high)) for b in taken)
-                outside = bool(np.any(low < frame.min) or np.any(high > frame.max))
-                total = gap + 3.0 * max(_CLEARANCE - away, 0.0) + 10.0 * (away <= 0.0) + 40.0 * (clashes + outside)
-                if total < cost - 1e-9:
-                    best, cost = offset, total
-        note.set_position(tuple(best / point))
-        taken.append(anchor + best + half * np.array([[-1.0], [1.0]]))
-
-
-def _xy(line: Line2D) -> Array:
-    return np.asarray(line.get_xydata(), dtype=float).reshape(-1, 2)
-
-
-def drawn_points(ax: Axes) -> Array:
-    """Return points every two pixels along everything drawn as a line, (N, 2), in pixels."""
-    points = [np.empty((0, 2))]
-    for line in ax.lines:
-        pixels = line.get_transform().transform(_xy(line))
-        pixels = pixels[np.isfinite(pixels).all(axis=1)]
-        if len(pixels) and line.get_visible():
-            s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(pixels, axis=0).T))])
-            along = np.linspace(0.0, s[-1], min(int(s[-1] / 2.0) + 2, 20_000))
-            points.append(np.column_stack([np.interp(along, s, pixels[:, k]) for k in range(2)]))
-    return np.concatenate(points)
+        note.set_label(LABEL)
 
 
 def save_figure(figure: Figure, path: str | Path, *, dpi: float = 200.0) -> Path:
@@ -369,9 +346,9 @@ def _breaks(branch: Branch, names: Iterable[str]) -> set[int]:
     return {int(i) for a in angles for i in np.flatnonzero(np.abs(np.diff(a)) > np.pi)}
 
 
-def _axis_label(curves: Sequence[Branch | LoadPath], name: str, degrees: bool) -> str:
+def _common_unit(curves: Iterable[Branch | LoadPath], name: str) -> str:
     units = (c.unit(name) if isinstance(c, LoadPath) else _unit(c, name) for c in curves)
-    return axis_label(name, next((u for u in units if u not in ("", "1")), ""), degrees)
+    return next((u for u in units if u not in ("", "1")), "")
 
 
 def _names(branches: Sequence[Branch], legend: Sequence[str] | bool | None) -> list[str]:

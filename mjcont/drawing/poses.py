@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont.drawing import plotting
+from mjcont.drawing import notes, plotting
 from mjcont.drawing.labels import Labels, write_labels
 from mjcont.drawing.picture import Picture, Pose, picture
 from mjcont.drawing.sketch import padded, render
@@ -194,7 +194,7 @@ def add_poses(
     for k in sorted(visible, key=lambda k: _empty_place(ax, places[k], extents[k])[1]):
         insets[k] = _free_axes(ax, list(chosen)[k], places[k], shown[k], extents[k], boxes[k])
         render(insets[k], shown[k], boxes[k], unit, scale=0.6)
-    plotting.place_labels(ax)
+    notes.place_labels(ax)
     return [insets[k] for k in visible]
 
 
@@ -273,7 +273,7 @@ def _obstacles(ax: Axes) -> Array:
     legend = ax.get_legend()
     boxes = [t.get_window_extent() for t in ax.texts if t.get_text()]
     boxes += [legend.get_window_extent()] if legend is not None else []
-    return np.concatenate([plotting.drawn_points(ax), *(_grid(np.array(b.min), np.array(b.max)) for b in boxes)])
+    return np.concatenate([notes.drawn_points(ax), *(_grid(np.array(b.min), np.array(b.max)) for b in boxes)])
 
 
 def _with_title(ax: Axes, extent: Array) -> Array:

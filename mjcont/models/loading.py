@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import mujoco
 
-from mjcont.errors import ModelError
+from mjcont.errors import ModelError, did_you_mean
 from mjcont.models import assets, sources
 from mjcont.models.mjcf import exact_text
 from mjcont.models.quiet import heard
@@ -29,11 +29,17 @@ class Loaded(NamedTuple):
     folder: Path | None
 
 
-def models_folder() -> Path:
-    """Return the folder of the models that ship with mjcont: in the wheel, or beside the package in a checkout."""
+def shipped_folder(name: str) -> Path:
+    """Return a folder that ships with mjcont: in the wheel, or beside the package in a checkout."""
     package = Path(str(resources.files("mjcont")))
-    installed = package / "models_xml"
-    return installed if installed.is_dir() else package.parent / "models_xml"
+    installed, beside = package / name, package.parent / name
+    # a room of the package may have the folder's name, and a wheel's data lie in that room
+    return beside if beside.is_dir() and (package.parent / "pyproject.toml").is_file() else installed
+
+
+def models_folder() -> Path:
+    """Return the folder of the models that ship with mjcont."""
+    return shipped_folder("models_xml")
 
 
 def shipped_models() -> list[str]:
@@ -54,15 +60,25 @@ def read_source(source: str | Path) -> tuple[str, Path | None]:
     if isinstance(source, str) and source.lstrip().startswith("<"):
         sources.look_at(source, None, "XML text")
         return source, None
+    given: object = source
+    if not isinstance(given, str | Path):
+        kind = type(given).__name__
+        more = ": Mechanism.from_model takes compiled models, from_spec an MjSpec" if "Mj" in kind else ""
+        raise ModelError(f"a model is a path, XML text or a shipped model's name, got {kind}{more}")
+    if isinstance(source, str) and not source.strip():
+        raise ModelError("model '': expected a path, XML text, or the name of a model that ships with mjcont")
     path = located(source)
     if not path.is_file():
         shipped = ", ".join(shipped_models()) or "none"
         what = "is a folder, not a file" if Path(source).is_dir() else "no such file"
-        raise ModelError(f"model '{source}': {what}. Models that ship with mjcont: {shipped}.")
+        hint = did_you_mean(Path(source).stem, shipped_models())
+        raise ModelError(f"model '{source}': {what}.{hint} Models that ship with mjcont: {shipped}.")
     try:
         text, folder = path.read_text(encoding="utf-8"), path.resolve().parent
     except (UnicodeDecodeError, OSError) as error:
         raise ModelError(f"model '{source}' cannot be read as text: {error}") from error
+    if not text.strip():
+        raise ModelError(f"model '{source}': the file is empty")
     sources.look_at(text, folder, str(path))
     try:
         str(folder).encode()

@@ -7,21 +7,22 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
-from mjcont.errors import MjcontError, unknown_name
+from mjcont.errors import MjcontError, NameLookupError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.certificates import Certificate
 from mjcont.results.model import Model, model_of
 from mjcont.results.points import Column, Mark, Point, SpecialPoint, show
 from mjcont.results.quantities import column_of
 from mjcont.results.spectra import Spectra
+from mjcont.results.text import Shown
 
 
-@dataclass(frozen=True)
-class Branch:
+@dataclass(frozen=True, repr=False)
+class Branch(Shown):
     """A curve of equilibria, or a locus of special points.
 
     Attributes
@@ -73,8 +74,24 @@ class Branch:
         """Return the number of rows: the points reached in turn, special points, and rows between (see `Settings`)."""
         return len(self.states)
 
-    def __getitem__(self, name: str) -> Array:
-        """Return a column, SI and radians, (N,)."""
+    def __iter__(self) -> Iterator[Point]:
+        """Iterate over the rows as points."""
+        return (self.row(i) for i in range(len(self)))
+
+    @overload
+    def __getitem__(self, name: str) -> Array: ...
+
+    @overload
+    def __getitem__(self, name: int) -> Point: ...
+
+    def __getitem__(self, name: Any) -> Any:
+        """Return a column, SI and radians, (N,); for a whole number that row, a Point."""
+        if isinstance(name, int | np.integer):
+            if not -len(self) <= name < len(self):
+                raise NameLookupError(f"row {name} of {len(self)}: rows are 0 to {len(self) - 1}, or -1 for the last")
+            return self.row(int(name) % len(self))
+        if not isinstance(name, str):
+            raise NameLookupError(f"a branch has columns by name and rows by whole numbers, got {name!r}")
         if (own := column_of(name, self.columns)) is not None:
             return self.columns[own].values
         if name in self.fixed:
@@ -179,6 +196,13 @@ class Branch:
         ((name, value),) = target.items()
         return points_at(self, name, value)
 
+    def plot(self, x: str = "", y: str = "", **options: Any) -> Any:
+        """Draw the branch and return the axes; by default an observable over the parameter. `options` as for `plot`."""
+        from mjcont.drawing.plotting import plot
+
+        first = next((n for n, c in self.columns.items() if c.role == "observable"), next(iter(self.free)))
+        return plot(self, x=x or next(iter(self.free)), y=y or first, **options)
+
     def save(self, path: str | Path) -> Path:
         """Write the branch to an HDF5 file (replacing it whole or not at all) and return the path.
 
@@ -261,8 +285,8 @@ def sliced(branch: Branch, first: int, last: int) -> Branch:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Diagram:
+@dataclass(frozen=True, slots=True, repr=False)
+class Diagram(Shown):
     """The branches of a bifurcation diagram, in the order in which they were found."""
 
     branches: Sequence[Branch]
@@ -279,6 +303,16 @@ class Diagram:
     def __getitem__(self, index: int) -> Branch:
         """Return a branch."""
         return self.branches[index]
+
+    def plot(self, x: str = "", y: str = "", **options: Any) -> Any:
+        """Draw all branches and return the axes; by default an observable over the parameter."""
+        from mjcont.drawing.plotting import plot
+
+        if not self.branches:
+            raise MjcontError("the diagram has no branches to draw")
+        first = self.branches[0]
+        shown = next((n for n, c in first.columns.items() if c.role == "observable"), next(iter(first.free)))
+        return plot(*self.branches, x=x or next(iter(first.free)), y=y or shown, **options)
 
     @property
     def special_points(self) -> list[SpecialPoint]:

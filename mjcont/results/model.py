@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import hashlib
+import warnings
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import metadata
 from typing import Any, Protocol, Self
 
-from mjcont.errors import BoundsError, MjcontError, unknown_name
+from mjcont.errors import BoundsError, MjcontError, RangeWarning, unknown_name
 from mjcont.numerics.equations.problem import Array, Equations, Values
 from mjcont.results.quantities import Observable, Parameter, column_of, finite_pair
 
@@ -140,7 +141,16 @@ def check_bounds(problem: Parametrised, name: str, bounds: tuple[float, float] |
             f"bounds ({low:g}, {high:g}) of {name} leave {parameter.limits}: narrow the bounds"
             + ("" if parameter.springs else " or widen the range in the XML")
         )
+    warn_outside(problem, {name: (low, high)})
     return low, high
+
+
+def warn_outside(problem: Parametrised, given: Mapping[str, Sequence[float] | float]) -> None:
+    """Give a RangeWarning for each value outside the range that its parameter declares."""
+    for name, values in given.items():
+        said = problem.parameter(name).outside(*(values if isinstance(values, Sequence) else (values,)))
+        if said:
+            warnings.warn(said, RangeWarning, stacklevel=2)
 
 
 @cache

@@ -12,6 +12,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import name_of
 from mjcont.results.model import Model, model_of
 from mjcont.results.quantities import column_of
+from mjcont.results.text import Shown
 
 # observables that a summary line shows; all are in the columns
 _SHOWN = 5
@@ -24,8 +25,8 @@ def show(value: float, unit: str, digits: int = 7) -> str:
     return f"{value:.{digits}g} {unit}".rstrip().removesuffix(" 1")
 
 
-@dataclass(frozen=True, slots=True)
-class Point:
+@dataclass(frozen=True, slots=True, repr=False)
+class Point(Shown):
     """One equilibrium.
 
     Attributes
@@ -67,7 +68,7 @@ class Point:
         return f"{self.stability} ({self.n_unstable} unstable): {shown}"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class SpecialPoint(Point):
     """A located special point.
 

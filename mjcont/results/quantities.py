@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mjcont.errors import BoundsError, ParameterError
+from mjcont.results.units import displayed, mistaken
 
 Given = TypeVar("Given")
 FRICTION = ("frictionless", "refuse")
@@ -160,6 +161,28 @@ class Parameter:
         low, high = self.hard_bounds
         if not low <= value <= high:
             raise BoundsError(f"{self.name} = {value:g} lies outside {self.limits}")
+
+    def outside(self, *values: float) -> str:
+        """Return a sentence about the first value that leaves the range that the parameter declares; empty if none.
+
+        A range that nobody declared says nothing, but of an angle: beyond a turn it is likely one in degrees.
+        """
+        low, high = self.bounds
+        guesses = (default_bounds(self.value, self.unit), default_bounds(self.value))
+        stated = self.kind not in ("switch", "gravity") and not self.springs and self.bounds not in guesses
+        if self.unit == "rad" and not stated:
+            low, high = -2.0 * math.pi, 2.0 * math.pi
+        elif not stated:
+            return ""
+        slack = 1e-9 * max(abs(low), abs(high))
+        far = next((v for v in values if not low - slack <= v <= high + slack), None)
+        if far is None:
+            return ""
+        unit, factor = displayed(self.unit)
+        shown, start, end = (f"{v * factor:.7g} {unit}".rstrip() for v in (far, low, high))
+        hint = mistaken(far, self.unit, low, high)
+        return (f"{self.name} = {shown} lies outside {'its range' if stated else 'a turn'}, {start} to {end}"
+                + (f': did you mean "{hint}"?' if hint else ""))
 
     @property
     def needs_constants(self) -> bool:

@@ -118,7 +118,7 @@ class Sensitivities:
             The most influential parameters only.
         ax : matplotlib Axes, optional
         """
-        from mjcont.drawing.sensitivities import draw_tornado
+        from mjcont.drawing.charts import draw_tornado
 
         shown = self.with_tolerances(tolerances or {})
         return draw_tornado(shown, self.quantities[self._column(quantity or self.quantities[0])], most, ax)

@@ -103,7 +103,7 @@ class SweepTable:
 
     def plot(self, quantity: str | None = None, against: str | None = None, *, ax: Any = None) -> Any:
         """Draw the distribution of a quantity (default the first), or scatter it against a column; return the axes."""
-        from mjcont.drawing.sweeps import draw_histogram, draw_scatter
+        from mjcont.drawing.charts import draw_histogram, draw_scatter
 
         name = quantity or self.recorded[0]
         if against is None:

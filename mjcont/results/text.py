@@ -1,10 +1,15 @@
-"""Readable tables in plain text: of parameters, and what `mjcont inspect` prints."""
+"""Readable text: tables of parameters, what `mjcont inspect` prints, and how results show themselves."""
 
 from __future__ import annotations
 
 import math
+from html import escape
+from typing import Any
 
+from mjcont.errors import ParameterError
 from mjcont.results.quantities import Parameter
+
+_LONGEST = 160
 
 
 def table(rows: list[list[str]]) -> list[str]:
@@ -37,3 +42,29 @@ class ParameterTable(dict[str, Parameter]):
         return "\n".join(table(rows))
 
     __repr__ = __str__
+
+
+class Shown:
+    """A result whose repr is the first line of its summary; a notebook shows all of it, and completes its columns."""
+
+    def __repr__(self) -> str:
+        """Return the kind of result and the first line of its summary."""
+        line = str(self).partition("\n")[0]
+        return f"<{type(self).__name__} {line if len(line) <= _LONGEST else line[: _LONGEST - 3] + '...'}>"
+
+    def _repr_html_(self) -> str:
+        """Return the summary as a notebook shows it."""
+        return f"<pre>{escape(str(self))}</pre>"
+
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return the names that [...] takes."""
+        found: list[str] = []
+        for each in ("columns", "fixed", "parameters", "observables"):
+            found += [n for n in getattr(self, each, ()) if n not in found]
+        return found
+
+
+def check_kind(what: str, given: Any, kind: type, advice: str) -> None:
+    """Raise a ParameterError unless what a verb is given is of a kind; `advice` says what to write."""
+    if not isinstance(given, kind):
+        raise ParameterError(f"{what} must be a {kind.__name__}, got {type(given).__name__}: {advice}")

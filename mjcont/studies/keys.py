@@ -15,7 +15,7 @@ from typing import Any
 
 from mjcont.errors import MjcontError, StudyError, unknown_name
 from mjcont.numerics.equations.settings import Settings, make_settings
-from mjcont.results.model import check_bounds, units
+from mjcont.results.model import check_bounds, units, warn_outside
 from mjcont.results.quantities import column_of, meant
 from mjcont.studies.schema import Table, shown
 
@@ -254,6 +254,7 @@ def value_table(inner: Table, context: Context) -> dict[str, float]:
         with context.noting(), about(inner, name):
             found[name] = inner.quantity(name, context.mechanism.parameter(name).unit)
             context.mechanism.values({name: found[name]})
+            warn_outside(context.mechanism, {name: found[name]})
     return found
 
 

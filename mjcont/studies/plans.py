@@ -12,10 +12,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mjcont.errors import StudyError, unknown_name
+from mjcont.errors import StudyError, did_you_mean, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
-from mjcont.models.loading import shipped_models
+from mjcont.models.loading import shipped_folder, shipped_models
 from mjcont.results.quantities import FRICTION
+from mjcont.studies.answers import AnswerPlan, read_answer
 from mjcont.studies.keys import Context, Reference, about, check_keys, pair, read, value_table
 from mjcont.studies.schema import Table
 from mjcont.studies.sweeps import read_sweep
@@ -27,6 +28,7 @@ __all__ = ["PLOT_SUFFIXES", "BranchPlan", "PlotPlan", "Study", "Task", "check_st
 STUDY_VERSION = 1
 TOP = (
     "version", "model", "friction", "parameters", "declare", *(kind.table for kind in KINDS.values()), "plot", "sweep",
+    "answer",
 )
 _NAME = re.compile(r"[A-Za-z_]\w*")
 
@@ -68,6 +70,8 @@ class PlotPlan:
     title: str = ""
     labels: bool = True
     degrees: bool = True
+    units: tuple[str, ...] = ()
+    legend: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +85,7 @@ class Study:
     tasks: tuple[Task, ...] = ()
     sweep: SweepPlan | None = None
     friction: str = FRICTION[0]
+    answer: AnswerPlan | None = None
 
     @property
     def plans(self) -> tuple[BranchPlan | Task, ...]:
@@ -139,12 +144,28 @@ def check_study(path: str | Path, *, friction: str | None = None) -> tuple[Study
 
     A line reads `FILE: table[i].key: what is wrong, with the valid choices`.
     """
+    path = located(path)
     study, problems = _read(path, friction)
     lines = (str(p).replace(f"study '{path}': ", f"{path}: ", 1) for p in problems)
     return study, list(dict.fromkeys(" ".join(line.split()) for line in lines))
 
 
+def shipped_studies() -> list[str]:
+    """Return the names of the studies that ship with mjcont."""
+    return sorted(p.stem for p in shipped_folder("studies").glob("*.toml"))
+
+
+def located(path: str | Path) -> Path:
+    """Return the file of a path, or of a shipped study's name, such as "overcentre" or "studies/overcentre.toml"."""
+    given = Path(path)
+    inside = shipped_folder("studies") / f"{given.stem}.toml"
+    named = given.parent == Path() and given.suffix in ("", ".toml")
+    within = given.parent == Path("studies") and given.suffix == ".toml"
+    return inside if not given.exists() and (named or within) and inside.is_file() else given
+
+
 def _read(path: str | Path, friction: str | None) -> tuple[Study | None, list[StudyError]]:
+    path = located(path)
     context = Context(None)
     data: dict[str, Any] = {}
     with context.noting():
@@ -214,7 +235,8 @@ def _assemble(root: Table, context: Context, friction: str | None) -> Study:
         asked = friction or root.text("friction", FRICTION[0])
         if context.mechanism is not None:
             sweep = read_sweep(root, context.mechanism, tuple(branches))
-    return Study(root.file, context.mechanism, tuple(branches), tuple(plots), tuple(tasks), sweep, asked)
+    answer = read_answer(root, context)
+    return Study(root.file, context.mechanism, tuple(branches), tuple(plots), tuple(tasks), sweep, asked, answer)
 
 
 def _tables(root: Table, key: str, context: Context) -> Sequence[Table]:
@@ -250,9 +272,11 @@ def _claim_branches(named: Sequence[Table], root: Table, context: Context) -> No
 def _parse(path: Path) -> dict[str, Any]:
     if not path.is_file():
         what = "is a folder, not a file" if path.is_dir() else "no such file"
-        raise StudyError(f"study '{path}': {what}")
+        names = shipped_studies()
+        raise StudyError(f"study '{path}': {what}.{did_you_mean(path.stem, names)} Studies that ship with mjcont: "
+                         f"{', '.join(names)}.")
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")  # editors on Windows begin files with a mark
     except (UnicodeDecodeError, OSError) as error:
         raise StudyError(f"study '{path}' cannot be read as text: {error}") from error
     try:

@@ -11,44 +11,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mjcont.errors import StudyError, unknown_name
+from mjcont.errors import MjcontError, StudyError, unknown_name
+from mjcont.results.units import conversion, fitting, measured
 
 _QUANTITY = re.compile(r"\s*(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(?P<unit>.*?)\s*")
 _LARGEST = 1e300
 _BARE_KEY = re.compile(r"[\w-]+(\[\d+\])*")
-
-# unit as written: its SI unit and its size in it
-UNITS: dict[str, tuple[str, float]] = {
-    "1": ("1", 1.0),
-    "rad": ("rad", 1.0),
-    "deg": ("rad", math.pi / 180.0),
-    "m": ("m", 1.0),
-    "cm": ("m", 1e-2),
-    "mm": ("m", 1e-3),
-    "kg": ("kg", 1.0),
-    "g": ("kg", 1e-3),
-    "t": ("kg", 1e3),
-    "s": ("s", 1.0),
-    "Hz": ("Hz", 1.0),
-    "ms": ("s", 1e-3),
-    "N": ("N", 1.0),
-    "kN": ("N", 1e3),
-    "MN": ("N", 1e6),
-    "N*m": ("N*m", 1.0),
-    "kN*m": ("N*m", 1e3),
-    "N/m": ("N/m", 1.0),
-    "kN/m": ("N/m", 1e3),
-    "MN/m": ("N/m", 1e6),
-    "N/mm": ("N/m", 1e3),
-    "N*s/m": ("N*s/m", 1.0),
-    "kN*s/m": ("N*s/m", 1e3),
-    "N*m/rad": ("N*m/rad", 1.0),
-    "kN*m/rad": ("N*m/rad", 1e3),
-    "N*m*s/rad": ("N*m*s/rad", 1.0),
-    "m/s^2": ("m/s^2", 1.0),
-    "J": ("J", 1.0),
-}
-
 
 def quantity(value: Any, unit: str) -> float:
     """Return a number, or a string such as "20 deg", in `unit` (any unit will do where it is empty).
@@ -77,18 +45,11 @@ def _example(unit: str) -> str:
 
 def _size(given: str, own: str, value: str) -> float:
     """Return the size of the unit given in the parameter's own unit."""
-    if not given or given == own:
-        return 1.0
-    if given not in UNITS:
-        raise ValueError(str(unknown_name("unit", given, UNITS)))
-    si, size = UNITS[given]
-    if not own:
-        return size
-    own_si, own_size = UNITS.get(own, (own, 1.0))
-    if si != own_si:
-        fitting = ", ".join(u for u, (base, _) in UNITS.items() if base == own_si) or own
-        raise ValueError(f'"{value}" does not fit a quantity in {own}. Valid units: {fitting}.')
-    return size / own_size
+    try:
+        return conversion(given, own)
+    except MjcontError as error:
+        raise ValueError(f'"{value}" does not fit a quantity in {own}. Valid units: {", ".join(fitting(own))}.'
+                         if measured(given) is not None else str(error)) from error
 
 
 def shown(value: Any) -> str:
@@ -182,5 +143,13 @@ class Table:
         items = self.data[key]
         if not isinstance(items, list) or len(items) != len(units):
             raise self.error(key, f"expected {expected}, got {shown(items)}")
+        self._refuse_mixture(key, items, units)
         inner = Table(self.file, {f"{key}[{i}]": item for i, item in enumerate(items)}, self.where)
         return tuple(inner.quantity(place, unit) for place, unit in zip(inner.data, units, strict=True))
+
+    def _refuse_mixture(self, key: str, items: Sequence[Any], units: Sequence[str]) -> None:
+        """Refuse a bare number, radians, beside degrees: nobody means ["-30 deg", 7]; 0 is the same in both."""
+        plain = [item for item in items if not isinstance(item, str) and item != 0]
+        words = {match["unit"] for item in items if isinstance(item, str) and (match := _QUANTITY.fullmatch(item))}
+        if plain and set(units) == {"rad"} and any(word and measured(word) != measured("rad") for word in words):
+            raise self.error(key, f"{shown(plain[0])} has no unit, as others beside it have: say the unit of each")

@@ -137,12 +137,11 @@ def _shown_columns(study: Study, plan: BranchPlan) -> list[tuple[str, str]]:
 
 def draw(plan: PlotPlan, results: Mapping[str, Any], folder: Path) -> Path:
     """Draw one plot of a study into a folder and return its file."""
-    from mjcont.drawing.plotting import plot, save_figure, set_panel_title
+    from mjcont.drawing.plotting import plot, save_figure
 
     chosen = [curve for name in plan.branches for curve in curves_of(results, name)]
-    axes: Any = plot(*chosen, x=plan.x, y=plan.y, labels=plan.labels, degrees=plan.degrees)
-    if plan.title:
-        set_panel_title(axes, plan.title)
+    axes: Any = plot(*chosen, x=plan.x, y=plan.y, labels=plan.labels, degrees=plan.degrees, title=plan.title,
+                     units=plan.units, key=plan.legend, legend=None if plan.legend else False)
     return Path(save_figure(axes.figure, folder / plan.file))
 
 

@@ -15,6 +15,7 @@ from mjcont.oscillation.loci import FOLLOWED
 from mjcont.results.model import check_bounds, units
 from mjcont.results.points import show
 from mjcont.results.quantities import column_of
+from mjcont.results.units import check_wished
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
 from mjcont.studies.keys import Context, Key, Kind
@@ -177,8 +178,17 @@ def _plot_file(table: Table, key: str, context: Context) -> str:
     file = table.text(key)
     if not k.FILE_STEM.fullmatch(file) or Path(file).suffix not in PLOT_SUFFIXES:
         suffixes = ", ".join(PLOT_SUFFIXES)
-        raise table.error(key, f"'{file}' must be a file name without a folder, ending in one of {suffixes}")
+        raise table.error(key, f"'{file}' must be a file name of letters, digits, '-', '_' and '.', without a folder, "
+                               f"ending in one of {suffixes}")
     return file
+
+
+def _wished_units(table: Table, key: str, context: Context) -> tuple[str, ...]:
+    """Read units in which numbers are to be shown."""
+    found = table.texts(key)
+    with k.about(table, key):
+        check_wished(found)
+    return found
 
 
 def _check_plot(found: dict[str, Any], table: Table, context: Context) -> None:
@@ -355,6 +365,8 @@ PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
     "title": Key(k.text, "A string.", ""),
     "labels": Key(k.flag, "`false` leaves out the labels of special points.", True),
     "degrees": Key(k.flag, "`false` draws angles in radians.", True),
+    "units": Key(_wished_units, 'Units of the axes that they fit, such as `["kN", "mm"]`.', ()),
+    "legend": Key(k.flag, "`false` leaves out the key to line styles and markers.", True),
 }, _check_plot)
 
 # by kind of result, in the order in which they are computed

@@ -119,7 +119,7 @@ def test_inspect_prints_the_mechanism(capsys: pytest.CaptureFixture[str]) -> Non
     overcentre = mc.Mechanism.from_xml("overcentre")
     modes = "\n".join(mc.modes(mc.find_equilibrium(overcentre)).table())
     rest = "  of the stable rest that qpos0 belongs to"
-    assert capsys.readouterr().out == f"{overcentre}\n\nmodes\n{rest}\n{modes}\n{files}"
+    assert capsys.readouterr().out == f"{overcentre}\n\nmodes\n{rest}\n{modes}\n{files}\nnext: mjcont init overcentre\n"
 
 
 def test_inspect_prints_the_summary_of_a_result(stored: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 import mjcont as mc
-from mjcont.drawing import plotting
-from mjcont.drawing.plotting import LINE_STYLES, new_figure, place_labels, plot, save_figure, split_by_stability
+from mjcont.drawing import notes, plotting
+from mjcont.drawing.notes import place_labels
+from mjcont.drawing.plotting import LINE_STYLES, new_figure, plot, save_figure, split_by_stability
 
 
 @pytest.fixture(scope="module")
@@ -87,7 +88,7 @@ def test_labels_sit_off_the_curve_and_off_each_other(cusp):
     ax.figure.draw_without_rendering()
     place_labels(ax)
     boxes = [t.get_window_extent() for t in ax.texts]
-    ink = plotting.drawn_points(ax)
+    ink = notes.drawn_points(ax)
     for i, box in enumerate(boxes):
         assert not any(box.contains(*p) for p in ink)
         assert not any(box.overlaps(other) for other in boxes[i + 1 :])
@@ -142,9 +143,45 @@ def test_wrong_arguments_are_explained(cusp, branches, options, message):
         plot(*[cusp] * branches, x="mu", y="x", **options)
 
 
-def test_a_list_of_branches_is_refused_with_the_way_to_write_it(cusp):
-    with pytest.raises(mc.MjcontError, match="one by one.*got a list"):
-        plot([cusp], x="mu", y="x")
+def test_lists_and_diagrams_are_drawn_like_their_curves(cusp):
+    alone = plot(cusp, x="mu", y="x")
+    for given in ([cusp], mc.Diagram([cusp])):
+        assert len(plot(given, x="mu", y="x").lines) == len(alone.lines)
+
+
+def test_what_is_no_curve_is_refused_with_the_way_to_write_it(cusp):
+    with pytest.raises(mc.MjcontError, match="one by one.*got a Point"):
+        plot(cusp[0], x="mu", y="x")
+
+
+def test_a_key_explains_line_styles_and_markers(cusp):
+    words = [t.get_text() for t in plot(cusp, x="mu", y="x", key=True).get_legend().get_texts()]
+    assert {"stable", "unstable", "LP: fold"} <= set(words)
+
+
+def test_a_branch_is_short_in_a_console_and_its_rows_are_points(cusp):
+    assert len(repr(cusp)) < 300
+    assert "<pre>" in cusp._repr_html_()
+    assert {"mu", "x"} <= set(cusp._ipython_key_completions_())
+    assert (cusp[0]["mu"], cusp[-1]["mu"]) == (cusp["mu"][0], cusp["mu"][-1])
+    assert sum(1 for _ in cusp) == len(cusp)
+    for wrong in (len(cusp), 1.5, ["mu"]):
+        with pytest.raises(mc.NameLookupError, match="rows"):
+            cusp[wrong]
+
+
+def test_a_branch_draws_itself_with_a_title_and_wrong_units_are_refused(cusp):
+    assert cusp.plot(title="cusp").get_title(loc="left") == "cusp"
+    with pytest.raises(mc.ParameterError, match="unknown unit 'kn_'"):
+        cusp.plot(units="kn_")
+
+
+def test_an_axis_in_another_unit_has_round_numbers_and_says_so():
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml("overcentre"), "F", (-50, 50), start={"F": 50.0})
+    ax = branch.plot(y="height", units=("kN", "in"))
+    ax.figure.canvas.draw()
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("F [kN]", "height [in]")
+    assert {t.get_text() for t in ax.get_yticklabels()} >= {"0", "20", "40"}
 
 
 @pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])

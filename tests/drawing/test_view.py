@@ -78,7 +78,7 @@ def test_a_study_needs_no_display(tmp_path: Path) -> None:
     [
         (["RESULT", "--label", "LP9"], "equilibria.h5': unknown special point 'LP9'. Did you mean LP"),
         (["RESULT", "--at", "F=90"], "no point with F = 90: F goes from -50 N to 50 N"),
-        (["RESULT", "--at", "F=2kg"], "does not fit a quantity in N. Valid units: N, kN, MN."),
+        (["RESULT", "--at", "F=2kg"], "does not fit a quantity in N. Valid units: N, kN, MN, lbf."),
         (["RESULT", "--at", "G=2"], "unknown column 'G'"),
         (["RESULT", "--keyframe", "up"], "--keyframe goes with a model; for a result file use --label or --at"),
         (["overcentre", "--at", "G=2"], "unknown parameter 'G'. Valid: F"),

@@ -75,7 +75,7 @@ def unit_of(name: str, units: Any) -> str:
     return "rad" if what == "phase" else str(units.get(stem, ""))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class CycleBranch(Branch):
     """A curve of periodic orbits.
 

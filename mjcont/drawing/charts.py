@@ -1,0 +1,85 @@
+"""Charts of what goes with what: bars for sensitivities (a tornado), a sweep's distribution and scatter."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from mjcont.drawing.axes import axis_label, scaled
+from mjcont.errors import ParameterError
+from mjcont.outside.escapes import for_picture
+from mjcont.results.points import Column, show
+
+if TYPE_CHECKING:
+    from mjcont.results.sensitivities import Sensitivities
+    from mjcont.results.sweeps import SweepTable
+
+_SEEN = 1e-4  # of the widest bar
+_MORE, _LESS = "#1b4f8a", "#c4541a"
+
+
+def draw_tornado(s: Sensitivities, quantity: str, most: int, ax: Any) -> Any:
+    """Draw a bar for each parameter from the change at minus its tolerance to that at plus, the widest on top."""
+    from mjcont.drawing.plotting import new_figure
+
+    if most < 1:
+        raise ParameterError(f"most must be at least 1, got {most}")
+    j = s.quantities.index(quantity)
+    size = np.nan_to_num(np.abs(s.changes[:, j]))
+    names = [n for n in s.ordered(quantity) if size[s.parameters.index(n)] > _SEEN * size.max(initial=0.0)][:most]
+    unit = "deg" if s.units[quantity] == "rad" else s.units[quantity]
+    factor = math.degrees(1.0) if s.units[quantity] == "rad" else 1.0
+    axes = ax if ax is not None else new_figure(size=(6.2, 1.3 + 0.27 * max(len(names), 3)))[1]
+    at = np.arange(len(names))[::-1]
+    change = factor * np.array([s.changes[s.parameters.index(n), j] for n in names])
+    axes.barh(at, change, height=0.62, color=_MORE, label="parameter up")
+    axes.barh(at, -change, height=0.62, color=_LESS, hatch="////", edgecolor="white", linewidth=0.0,
+              label="parameter down")
+    axes.axvline(0.0, color="#333333", linewidth=0.8)
+    labels = [f"{for_picture(n)}  \u00b1{show(s.tolerances[n], s.units[n], 3)}" for n in names]
+    axes.set_yticks(at, labels)
+    axes.grid(visible=False, axis="y")
+    axes.set_xlabel(f"change of {for_picture(quantity)}" + (f" [{unit}]" if unit not in ("", "1") else ""))
+    rest = len(s.parameters) - len(names)
+    title = f"{for_picture(quantity)} = {show(s.values[quantity], s.units[quantity], 6)}"
+    axes.set_title(title + (f"   ({rest} more move it less or not)" if rest else ""), loc="left", fontsize=9.5)
+    if names:
+        axes.legend(loc="lower right", frameon=True, framealpha=0.9, edgecolor="none")
+    return axes
+
+
+def draw_histogram(table: SweepTable, column: Column, ax: Any) -> Any:
+    """Draw the distribution of a column with its 2.5 %, 50 % and 97.5 % points and the nominal value."""
+    from mjcont.drawing.plotting import COLORS, new_figure
+
+    axes = new_figure()[1] if ax is None else ax
+    values = scaled(column.values[np.isfinite(column.values)], column.unit)
+    if not len(values):
+        axes.set(xlabel=axis_label(column.name, column.unit), ylabel="cases")
+        return axes
+    bins: str | int = "auto" if len(values) > 1 else 1
+    axes.hist(values, bins=bins, color=COLORS[0], alpha=0.75, edgecolor="white", linewidth=0.4)
+    for k, point in enumerate(np.percentile(values, (2.5, 50.0, 97.5))):
+        label = {0: "2.5 % and 97.5 %", 1: "median"}.get(k)
+        axes.axvline(point, color="#333333", linestyle="-" if k == 1 else "--", linewidth=1.0, label=label)
+    nominal = float(scaled(np.array(table.nominal[column.name]), column.unit))
+    axes.axvline(nominal, color=COLORS[1], linestyle=":", linewidth=1.6, label="nominal")
+    axes.set(xlabel=axis_label(column.name, column.unit), ylabel="cases")
+    axes.legend(loc="best", fontsize=7.5)
+    return axes
+
+
+def draw_scatter(table: SweepTable, x: Column, y: Column, ax: Any) -> Any:
+    """Draw a column against another, with the nominal case."""
+    from mjcont.drawing.plotting import COLORS, new_figure
+
+    axes = new_figure()[1] if ax is None else ax
+    size = 14.0 if len(table) < 300 else 5.0
+    axes.scatter(scaled(x.values, x.unit), scaled(y.values, y.unit), s=size, color=COLORS[0], alpha=0.55, linewidths=0)
+    at = [float(scaled(np.array(table.nominal[c.name]), c.unit)) for c in (x, y)]
+    axes.plot(*at, "D", color=COLORS[1], markersize=6.0, markeredgecolor="white", linestyle="none", label="nominal")
+    axes.set(xlabel=axis_label(x.name, x.unit), ylabel=axis_label(y.name, y.unit))
+    axes.legend(loc="best", fontsize=7.5)
+    return axes

@@ -1,0 +1,70 @@
+"""Labels of special points, moved off curves, markers and each other."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mjcont.numerics.equations.problem import Array
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
+
+# what marks a text as a label
+LABEL = "_special point"
+# Where a label is tried, best first: beside, above, below, then slanting; gaps and clearance in points.
+_SIXTEENTHS = (0, 8, 4, 12, 2, 6, 10, 14, 1, 7, 9, 15, 3, 5, 11, 13)
+_DIRECTIONS = [np.array([np.cos(k * np.pi / 8), np.sin(k * np.pi / 8)]) for k in _SIXTEENTHS]
+_GAPS = (5.0, 9.0, 14.0, 20.0)
+_CLEARANCE = 5.0
+
+
+def place_labels(ax: Axes) -> None:
+    """Move the labels of special points off curves, markers and each other; call it again after changing limits."""
+    notes = [t for t in ax.texts if t.get_label() == LABEL and t.get_visible()]
+    if not notes:
+        return
+    ax.get_xlim(), ax.get_ylim()  # noqa: B018 - reading the limits makes matplotlib settle them
+    figure = ax.get_figure(root=True)
+    point = (figure.dpi if figure is not None else 72.0) / 72.0
+    ink, frame = drawn_points(ax), ax.bbox
+    taken: list[Array] = []
+    for note in notes:
+        extent = note.get_window_extent()
+        half = 0.5 * np.array([extent.width, extent.height])
+        anchor = ax.transData.transform(note.xy)  # type: ignore[attr-defined]
+        if not frame.contains(*anchor):
+            continue
+        best, cost = np.zeros(2), np.inf
+        for gap in _GAPS:
+            for d in _DIRECTIONS:
+                offset = d * (gap * point + half @ np.abs(d))
+                low, high = anchor + offset - half, anchor + offset + half
+                away = np.hypot(*np.maximum(np.maximum(low - ink, ink - high), 0.0).T).min(initial=np.inf) / point
+                clashes = sum(bool(np.all(low < b[1]) and np.all(b[0] < high)) for b in taken)
+                outside = bool(np.any(low < frame.min) or np.any(high > frame.max))
+                total = gap + 3.0 * max(_CLEARANCE - away, 0.0) + 10.0 * (away <= 0.0) + 40.0 * (clashes + outside)
+                if total < cost - 1e-9:
+                    best, cost = offset, total
+        note.set_position(tuple(best / point))
+        taken.append(anchor + best + half * np.array([[-1.0], [1.0]]))
+
+
+def xy(line: Line2D) -> Array:
+    """Return the points of a line, (N, 2)."""
+    return np.asarray(line.get_xydata(), dtype=float).reshape(-1, 2)
+
+
+def drawn_points(ax: Axes) -> Array:
+    """Return points every two pixels along everything drawn as a line, (N, 2), in pixels."""
+    points = [np.empty((0, 2))]
+    for line in ax.lines:
+        pixels = line.get_transform().transform(xy(line))
+        pixels = pixels[np.isfinite(pixels).all(axis=1)]
+        if len(pixels) and line.get_visible():
+            s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(pixels, axis=0).T))])
+            along = np.linspace(0.0, s[-1], min(int(s[-1] / 2.0) + 2, 20_000))
+            points.append(np.column_stack([np.interp(along, s, pixels[:, k]) for k in range(2)]))
+    return np.concatenate(points)
