@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import mjcont as mc
-from mjcont.drawing import notes
+from mjcont.drawing import notes, plotting
 from mjcont.drawing.notes import place_labels
 from mjcont.drawing.plotting import LINE_STYLES, new_figure, plot, save_figure, split_by_stability
 
