@@ -30,6 +30,7 @@ from mjcont.results.branch import Branch, Diagram
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint
 from mjcont.results.search import same_spectrum
+from mjcont.results.text import check_kind
 
 _OFFSET = 1e-2
 # first steps along a branch from a point on it, one way and the other
@@ -66,6 +67,7 @@ def switch_branches(
     MjcontError
         If the point is no branch point of equilibria, or was loaded without its problem.
     """
+    check_kind("the branch point", point, SpecialPoint, 'take one of a branch: branch.point("BP1")')
     if point.kind != "BP" or point.curve != "equilibria":
         raise MjcontError(f"{point.label or 'this point'} is no branch point of equilibria: only those have branches")
     settings = make_settings(options)

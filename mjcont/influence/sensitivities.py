@@ -19,6 +19,7 @@ from mjcont.numerics.equations.system import System, equation_scale
 from mjcont.results.points import Point
 from mjcont.results.quantities import Parameter
 from mjcont.results.sensitivities import Sensitivities, checked_tolerances
+from mjcont.results.text import check_kind
 
 PER_CENT = 0.01
 DEGREE = math.radians(1.0)
@@ -65,6 +66,7 @@ def sensitivities(
         If the point has no regular defining system or did not converge, a name is unknown, a parameter is one that
         the point determines, or shares its field with another that has been changed.
     """
+    check_kind("the point", point, Point, 'take one of a branch: branch.point("LP1"), or branch.at(...)[0]')
     defining_kind(point)
     before = point.model.evaluations
     names = _parameters(point, parameters)

@@ -23,6 +23,7 @@ from mjcont.oscillation.walks import Entry, Special, read_options, run
 from mjcont.results.branch import Branch
 from mjcont.results.orbits import CycleBranch, SpecialOrbit
 from mjcont.results.points import SpecialPoint
+from mjcont.results.text import check_kind
 
 FOLLOWED = ("LPC", "PD", "NS")
 Bounds = tuple[float, float] | Mapping[str, tuple[float, float]] | None
@@ -73,6 +74,7 @@ def continue_special(
         if zeros:
             raise MjcontError("zeros= are not located along curves of orbits")
         return _of_orbits(point, parameter, bounds, direction, end_at, progress, options)
+    check_kind("a point to be followed", point, SpecialPoint, 'take one of a branch: branch.point("LP1")')
     return loci.continue_special(
         point, parameter, bounds, direction=direction, end_at=end_at, zeros=zeros, lyapunov=lyapunov,
         progress=progress, **options,

@@ -130,17 +130,6 @@ def check_wished(wished: Sequence[str]) -> None:
         conversion(unit, "")
 
 
-def handy(unit: str, largest: float) -> str:
-    """Return the unit of which a value in `unit` is a number that one can read: kN from 10 kN on, mm below 10 mm."""
-    steps = {
-        "N": ((1e7, "MN"), (1e4, "kN")), "N*m": ((1e4, "kN*m"),), "N/m": ((1e7, "MN/m"), (1e4, "kN/m")),
-        "J": ((1e4, "kJ"),),
-    }
-    if unit == "m" and 0.0 < abs(largest) < 0.01:
-        return "mm"
-    return next((word for least, word in steps.get(unit, ()) if abs(largest) >= least), unit)
-
-
 def mistaken(value: float, unit: str, low: float, high: float) -> str:
     """Return the quantity, such as "20 deg", that was meant by a number outside its range; empty if none is likely."""
     others = {"rad": ("deg",), "m": ("mm",), "N": ("kN",), "kg": ("g",)}

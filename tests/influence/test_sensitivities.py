@@ -363,6 +363,12 @@ def test_a_guess_is_refused():
         mc.sensitivities(guess)
 
 
+@pytest.mark.parametrize("verb", [mc.sensitivities, lambda p: mc.continue_special(p, "m_1"), mc.switch_branches])
+def test_what_is_no_point_is_refused_with_what_to_write(verb):
+    with pytest.raises(mc.ParameterError, match=r'got str: take one of a branch: branch.point\("[BL]P1"\)'):
+        verb("LP1")
+
+
 def test_unknown_names_list_the_valid_ones():
     with pytest.raises(mc.NameLookupError, match="Did you mean m_1"):
         mc.sensitivities(gear_fold(), "m_11")

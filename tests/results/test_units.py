@@ -6,7 +6,7 @@ import pytest
 
 import mjcont as mc
 from mjcont.results.model import warn_outside
-from mjcont.results.units import conversion, displayed, handy
+from mjcont.results.units import conversion, displayed
 
 
 @pytest.mark.parametrize(
@@ -42,11 +42,6 @@ def test_numbers_are_shown_in_the_unit_wished_for_where_it_fits():
     assert displayed("m", ("kN",)) == ("m", 1.0)
     assert displayed("rad")[0] == "deg"
     assert displayed("rad", ("rad",)) == ("rad", 1.0)
-
-
-@pytest.mark.parametrize(("unit", "largest", "word"), [("N", 8e5, "kN"), ("N", 50.0, "N"), ("m", 2e-3, "mm")])
-def test_large_and_small_numbers_ask_for_another_unit(unit, largest, word):
-    assert handy(unit, largest) == word
 
 
 @pytest.fixture(scope="module")
