@@ -27,7 +27,7 @@ from mjcont.numerics.equations.problem import Pencil
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.points import balance, codim2, corner, events, kinds, looking, normalform, on_equilibria, on_loci
 from mjcont.numerics.search import box, coordinates, creep, deflation, multistart, spanning, sphere
-from mjcont.numerics.spectra import spectrum, stability, tracks
+from mjcont.numerics.spectra import spectrum, stability, tracks, vibration
 from mjcont.numerics.step import arclength, hermite, notes, turning
 from mjcont.numerics.walk import between, filled, interior, kinks, longsteps, onebyone, trace
 from mjcont.numerics.walk.steps import End
@@ -335,6 +335,8 @@ CASES = {
     "tracks.interpolated": lambda b: [tracks.interpolated(pair, 0) for pair in (b.pair, (b.point(), b.point()))],
     "tracks.tracks": lambda b: [tracks.tracks(pair, 0) for pair in (b.pair, (b.point(), b.point()))],
     "tracks.Tracks": lambda b: tracks.Tracks(*6 * [np.full(b.n, math.nan)]).meetings(),
+    "vibration.vibration": lambda b: vibration.vibration(pencil(b)),
+    "vibration.frequency_response": lambda b: vibration.frequency_response(pencil(b), np.array([0.0, math.nan]), b.v),
     "spectrum.companion": lambda b: spectrum.companion(*vars_of(pencil(b))),
     "spectrum.spectrum": lambda b: (spectrum.spectrum(b.local.pencil), spectrum.spectrum(pencil(b))),
     "spectrum.symmetric": lambda b: spectrum.symmetric(np.full((b.n, b.n), math.nan)),
