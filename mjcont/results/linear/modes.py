@@ -206,9 +206,10 @@ class Modes:
         rows = [["mode", "frequency", "omega", "damping ratio", "", "moves most"]]
         for m in self.modes[:most]:
             damping = f"{m.damping_ratio:.4g}" if math.isfinite(m.damping_ratio) else "-"
-            rate = f" at {m.growth:.4g} 1/s" if m.growing else ""
-            rows.append([str(m.number), f"{m.frequency:.6g} Hz", f"{m.omega:.6g} rad/s", damping, m.kind + rate,
-                         ", ".join(_largest(m))])
+            swings = m.omega > 0.0
+            rate = f" at {m.growth:.4g} 1/s" if m.growing or not swings else ""
+            often = [f"{m.frequency:.6g} Hz", f"{m.omega:.6g} rad/s", damping] if swings else ["-", "-", "-"]
+            rows.append([str(m.number), *often, m.kind + rate, ", ".join(_largest(m))])
         rest = len(self.modes) - len(rows) + 1
         return [*table(rows), *([f"  and {rest} faster"] if rest else [])]
 
