@@ -14,6 +14,7 @@ import pytest
 from problems.fields import branch_of_brusselator, cusp
 from problems.loci import folds_of_ab, hopfs_of_ab, kinds, only
 from problems.locusfields import conic, pitchfork, tilted_cusp
+from problems.marks import long
 from problems.reference import ELASTIC_FOLDS
 
 import mjcont as mc
@@ -277,7 +278,7 @@ def overcentre_folds(overcentre_branch):
 
 
 @pytest.mark.parametrize("which", [UPPER, LOWER])
-@pytest.mark.parametrize("k_j", [1000.0, 200.0, 100.0])
+@pytest.mark.parametrize("k_j", [1000.0, long(200.0), 100.0])
 def test_a_fold_curve_of_the_overcentre_passes_the_reference(overcentre_folds, k_j, which):
     point = only(overcentre_folds(which, k_j), "UZ")
     force, angle = ELASTIC_FOLDS[k_j][which]

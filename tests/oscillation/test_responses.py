@@ -88,9 +88,8 @@ def test_a_parameter_of_the_model_called_frequency_is_named_in_the_error():
         mc.continue_response(field, "frequency", (0.1, 1.0), {"g": mc.Harmonic(1.0)})
 
 
-def test_a_curve_goes_on_to_both_sides_from_a_fold_of_its_own():
-    response = mc.continue_response(duffing(), "w", (0.8, 2.6))
-    again = mc.continue_response(response.point("LPC1"))
+def test_a_curve_goes_on_to_both_sides_from_a_fold_of_its_own(resonance):
+    again = mc.continue_response(resonance.point("LPC1"))
     assert [status for status, _ in again.ends] == ["at bound", "at bound"]
     assert [p.kind for p in again.special_points] == ["LPC", "LPC"]
-    assert [p["w"] for p in again.special_points] == pytest.approx([p["w"] for p in response.special_points], abs=1e-8)
+    assert [p["w"] for p in again.special_points] == pytest.approx([p["w"] for p in resonance.special_points], abs=1e-8)

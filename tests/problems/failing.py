@@ -327,7 +327,7 @@ CASES = {
     "normalform.FirstOrder": lambda b: normalform.FirstOrder(b.problem, b.x, b.values).second(b.v, 1j * b.v),
     "spanning.spanning_tree": lambda b: spanning.spanning_tree(np.zeros((0, 2)), 3),
     "spanning.heights": lambda b: spanning.heights(np.zeros(0, dtype=int)),
-    "sphere.ways_through": lambda b: sphere.ways_through(b.system, b.x, b.system.start_y(), 2, 1e-2),
+    "sphere.ways_through": lambda b: sphere.ways_through(b.system, b.x, b.system.start_y(), 0, 1e-2),
     "balance.Balance": lambda b: balance.Balance(b.system, b.settings).pieces(*b.pair),
     "balance.multiple": lambda b: balance.multiple(balance.Piece(*b.pair, 2)),
     "tracks.motion_at": lambda b: tracks.motion_at(b.point()),
