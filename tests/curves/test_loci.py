@@ -113,6 +113,7 @@ def test_the_hopf_curve_of_ab_is_the_same_from_its_other_hopf_point():
         assert [one["D"], one["B"]] == pytest.approx([other["D"], other["B"]], rel=1e-8)
 
 
+@pytest.mark.long
 def test_the_hopf_curve_of_ab_takes_as_many_points_whichever_hopf_point_it_starts_from():
     # omega is ten times larger at the second
     assert len(hopfs_of_ab("HB1")) < 2 * len(hopfs_of_ab("HB2"))

@@ -9,6 +9,7 @@ import pytest
 import scipy.linalg
 import scipy.optimize
 from problems import reference
+from problems.marks import long
 from problems.mechanisms import branch_of, column, scaled
 from problems.reference import BOUNDS, START
 
@@ -84,7 +85,7 @@ def test_eigenvalues_read_late_are_those_of_the_points():
 # -- nothing is missed -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("force", [-411.7, -411.8, -411.806, -411.8079])
+@pytest.mark.parametrize("force", [-411.7, *map(long, (-411.8, -411.806)), -411.8079])
 def test_two_folds_close_to_their_cusp_are_both_found(force):
     gear = mc.Mechanism.from_xml("nose_gear")
     start = {"F_ret": 4e5, "F_ul": force, "gravity_angle": 0.0}
