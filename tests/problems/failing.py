@@ -316,7 +316,7 @@ CASES = {
     "newton.correct": lambda b: newton.correct(b.system, b.x, b.y, b.point().tangent, None, b.settings),
     "newton.solve": lambda b: newton.solve(system.System(b.problem, b.values, ()), b.x, np.zeros(0)),
     "newton.solve_linear": lambda b: newton.solve_linear(b.local.raw_jac, b.v),
-    "starts.find_start": lambda b: starts.find_start(b.problem, b.x, b.values) if b.n == 1 else None,
+    "starts.find_start": lambda b: starts.find_start(b.problem, b.x, b.values),
     "normalform.fold_coefficient": lambda b: normalform.fold_coefficient(b.local, b.x, b.x),
     "normalform.cusp_coefficient": lambda b: normalform.cusp_coefficient(b.local, b.x, b.x),
     "normalform.lyapunov": lambda b: normalform.lyapunov(b.problem, b.x, b.values, 0.0),
