@@ -194,7 +194,7 @@ def test_observables_read_side_by_side_are_those_read_one_by_one():
     branch = branch_of("nose_gear")
     values = [{**branch.fixed, "F_ret": f} for f in branch["F_ret"]]
     one_by_one = branch.problem.measure(branch.states, values)
-    together = branch.problem.measure_along(branch.states, values[0], "F_ret", branch["F_ret"])
+    together = branch.problem.measure_along(branch.states, values[0], {"F_ret": branch["F_ret"]})
     assert together == pytest.approx(one_by_one, rel=1e-12, abs=1e-12)
 
 

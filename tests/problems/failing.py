@@ -15,6 +15,7 @@ from mjcont.numerics.equations import (
     adjoint,
     algebra,
     bordered,
+    columns,
     defining,
     differences,
     newton,
@@ -62,6 +63,7 @@ class Bad:
     y = property(lambda self: np.zeros(1))
     v = property(lambda self: np.ones(self.n))
     values = property(lambda self: self.problem.values())
+    sparse_jac = property(lambda self: sparse.csc_matrix(self.local.jac))
     settings = property(lambda self: settings.Settings())
     free = property(lambda self: Free("p", -1.0, 1.0))
     corrected = property(lambda self: newton.Corrected(self.x, self.y, self.local, None, 0, 0.0, 0.0, 0.0))
@@ -206,6 +208,10 @@ CASES = {
     "box.minimise": lambda b: box.minimise(lambda u: (math.nan, np.full(b.n, math.nan)), b.v, tol=1e-6),
     "codim2.zero_hopf_coefficients": lambda b: codim2.zero_hopf_coefficients(b.problem, b.x, b.values, 1.0),
     "codim2.double_hopf_coefficients": lambda b: codim2.double_hopf_coefficients(b.problem, b.x, b.values, 1.0, 1.0),
+    "columns.scaled": lambda b: columns.scaled(b.sparse_jac, b.v, math.nan * b.v),
+    "columns.bordered": lambda b: columns.bordered(b.sparse_jac, math.nan * b.v[:, None], b.v[None], np.zeros((1, 1))),
+    "columns.largest_entries": lambda b: columns.largest_entries(b.sparse_jac),
+    "columns.weighted_sum": lambda b: columns.weighted_sum([math.nan, 1.0], [b.sparse_jac, b.sparse_jac]),
     "coordinates.layout": lambda b: coordinates.layout((), np.zeros(0), np.zeros(0), {}),
     "coordinates.with_turns": lambda b: coordinates.with_turns(
         b.slots(), [(name, "rad") for name, _ in b.problem.state_labels], b.x[None], b.many().residuals
