@@ -90,7 +90,8 @@ def task_line(mechanism: Any, plan: Task) -> str:
         "locus": lambda: f"{of}, {span(g['parameter'], g['bounds'])}",
         "path": lambda: g["parameter"] + " " + " -> ".join(show(v, unit_of[g["parameter"]], 6) for v in g["values"])
         if g["parameter"] else f"{len(g['loads'])} loads",
-        "history": lambda: f"{g['duration']:g} s, " + (", ".join(g["inputs"]) or "no inputs"),
+        "history": lambda: ", ".join([*([f"{g['duration']:g} s"] if g["duration"] else []),
+                                      *(g["inputs"] or ["no inputs"])]),
         "worst case": lambda: f"{of}, " + ", ".join(span(n, b) for n, b in g["ranges"].items()),
         "map": lambda: f"{of}, " + ", ".join(f"{span(n, (a[0], a[-1]))} ({len(a)})" for n, a in g["grid"].items()),
     }
@@ -187,11 +188,15 @@ def _path(plan: Task, at: Running) -> Outcome:
 
 def _history(plan: Task, at: Running) -> Outcome:
     from mjcont.motion.histories import simulate
+    from mjcont.results.orbits import OrbitPoint, SpecialOrbit
     from mjcont.studies.outputs import draw_history
 
     g = plan.given
+    begin: dict[str, Any] = {"problem": at.mechanism, **start_of(g, at.done)}
+    if isinstance(begin["start"], OrbitPoint | SpecialOrbit):
+        begin = {"problem": begin["start"]}
     found = simulate(
-        at.mechanism, g["inputs"], g["duration"], **start_of(g, at.done),
+        **begin, inputs=g["inputs"], duration=g["duration"],
         **{key: g[key] for key in ("timestep", "integrator", "tol", "until_rest", "samples")},
     )
     files = store_curve(found, plan.name, g["csv"], at.folder)
