@@ -21,6 +21,7 @@ from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused
+from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.starts import find_start
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.conserved import ENERGY, FREQUENCY
@@ -307,10 +308,11 @@ def _walked(
     """
     system = System(orbits, values, [free])
     y = system.start_y()
-    first = entered(system, x, y, along_parameter(system, x, y, 1.0), read.settings)
+    settings = Settings(tol=read.settings.tol)  # limits are those of the curve that is asked for
+    first = entered(system, x, y, along_parameter(system, x, y, 1.0), settings)
     if isinstance(first, Refused):
         raise StartError(f"no small orbit found beside rest: {first}")
-    trace = trace_orbits(Follower(read.settings, read.meshes, stop, detectors=_nothing), system, first)
+    trace = trace_orbits(Follower(settings, read.meshes, stop, detectors=_nothing), system, first)
     if trace.end.status not in (Status.AT_BOUND, Status.STOPPED):
         raise StartError(f"the mode was lost on the way to the bounds: {trace.end.message}")
     return path_at(trace.points[-1])
@@ -332,4 +334,34 @@ def _from_orbit(
     progress: Progress | None,
     options: Mapping[str, Any],
 ) -> CycleBranch:
-    raise NotImplementedError
+    orbit = orbit_at(point)
+    motion = flow_at(orbit)
+    if not isinstance(motion, Conserving):
+        raise MjcontError("the orbit loses energy or is driven: modes begin at a model, or at an orbit of a curve of "
+                          "modes")
+    read = read_options(motion, {"scheme": orbit.path.scheme.name, "degree": orbit.path.scheme.degree, **options})
+    flow = motion.chosen(parameter)
+    twice = parameter == FREQUENCY and isinstance(point, SpecialOrbit) and point.kind == "PD"
+    value = float(orbit.energy or 0.0) if parameter == ENERGY else orbit.frequency
+    turned = _told_by(point, orbit, flow, value)
+    free = bounded(flow, turned, parameter, bounds)
+    system, entries, origin = entries_at(flow, turned, free)
+    if twice:
+        entries = [replace(e, y=np.array([free.coordinate(0.5 * value)])) for e in entries]
+    return run(MODES, system, entries, read, origin, stop, progress)
+
+
+def _told_by(
+    point: SpecialOrbit | OrbitPoint | Orbit, orbit: Orbit, flow: Conserving, value: float
+) -> SpecialOrbit | Orbit:
+    """Return the point with the number by which the flow tells orbits apart."""
+    own = replace(orbit, parameters={**flow.theirs(orbit.constants()), flow.chosen_by: value}, forcing=flow.record())
+    if not isinstance(point, SpecialOrbit):
+        return own
+    vectors = dict(point.vectors)
+    if "tangent" in vectors and flow.chosen_by not in point.free:
+        tangent = np.array(vectors["tangent"])
+        slope = flow.energy_slopes(orbit.path.s[:1], own.parameters)[0]
+        along = float(slope @ tangent[: flow.d]) if flow.chosen_by == ENERGY else -tangent[-2] / orbit.period**2
+        vectors["tangent"] = np.append(tangent[:-1], along)
+    return replace(point, orbit=own, vectors=vectors)
