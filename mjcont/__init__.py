@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from mjcont.oscillation.forced import Harmonic
     from mjcont.oscillation.loci import continue_special
     from mjcont.oscillation.modes import modes
+    from mjcont.oscillation.nonlinear import continue_modes
     from mjcont.oscillation.responses import continue_response
     from mjcont.oscillation.transfer import transfer
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
@@ -82,6 +83,7 @@ _HOMES = {
     "mjcont.curves.diagram": ("bifurcation_diagram", "switch_branches"),
     "mjcont.curves.extension": ("extend",),
     "mjcont.oscillation.loci": ("continue_special",),
+    "mjcont.oscillation.nonlinear": ("continue_modes",),
     "mjcont.curves.search": ("find_equilibria",),
     "mjcont.curves.stiffness": ("stiffness_study",),
     "mjcont.drawing.animation": ("animate",),
@@ -181,6 +183,7 @@ __all__ = [
     "constraint_stiffness",
     "continue_cycles",
     "continue_equilibria",
+    "continue_modes",
     "continue_response",
     "continue_special",
     "draw",

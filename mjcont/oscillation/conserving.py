@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.errors import FunctionError, MjcontError, ParameterError, leaves_domain
+from mjcont.errors import FunctionError, MjcontError, ParameterError, StartError, leaves_domain
 from mjcont.numerics.equations.differences import FOURTH_ORDER, SECOND_ORDER, jacobian_steps
 from mjcont.numerics.equations.problem import Array, Range, Ranges, Stencil, Values
+from mjcont.numerics.equations.starts import find_start
 from mjcont.numerics.orbits.conserved import ENERGY, FREQUENCY, ConservativeFlow
 from mjcont.numerics.orbits.flow import Rates
 from mjcont.oscillation.fields import FieldFlow
@@ -50,7 +51,7 @@ class Conserving(ModelFlow, ConservativeFlow):
         self.inner, self.model, self.forcing = inner, inner.model, None
         self.chosen_by, self.even, self.rest = chosen_by, even, rest
         self.order, self.c, self.scale = inner.order, inner.c, inner.scale
-        self._energy = energy
+        self._energy, self._moves = energy, has_velocities(inner, rest)
         self.energy_unit = "" if isinstance(inner, FieldFlow) else "J"
         unit = "Hz" if chosen_by == FREQUENCY else self.energy_unit
         self._own = Parameter(chosen_by, unit, 1.0, (1e-3, 1e3), "forcing", hard_bounds=(1e-300, np.inf),
@@ -103,9 +104,12 @@ class Conserving(ModelFlow, ConservativeFlow):
         return replace(found, par=par)
 
     def unfolding(self, states: Array, values: Values) -> Array:
-        """Return the velocity, or the energy's gradient over squares of scales."""
+        """Return the velocity as an acceleration, or the energy's gradient over squares of scales."""
         if self.order == 2:
             return states[:, self.c :]
+        if self._moves:
+            half = self.c // 2
+            return np.hstack([np.zeros((len(states), half)), states[:, half:]])
         return self.scale**2 * self._slopes(states, values, SECOND_ORDER)
 
     # -- energy ------------------------------------------------------------------------------------------------
@@ -197,8 +201,8 @@ def conserving(inner: ModelFlow, chosen_by: str, even: bool, rest: Array) -> Con
     """
     model = inner.model
     if chosen_by in model.parameters:
-        raise ParameterError(f"the model has a parameter '{chosen_by}', which modes need for themselves: rename it where "
-                             f"it is declared, such as to '{chosen_by}_0'")
+        raise ParameterError(f"the model has a parameter '{chosen_by}', which modes need for themselves: rename it "
+                             f"where it is declared, such as to '{chosen_by}_0'")
     energy = _energy_of_field(inner, rest) if isinstance(inner, FieldFlow) else _energy_of_mechanism(inner)
     return Conserving(inner, energy, chosen_by, even, rest)
 
@@ -216,7 +220,7 @@ def _energy_of_field(inner: FieldFlow, rest: Array) -> Energy:
     if field.energy is not None:
         return lambda states, values: _given_energy(field, states, values)
     if not has_velocities(inner, rest):
-        raise MjcontError(f"the energy of {field.name} is not known: give it, VectorField(..., energy=lambda u, p: ...)")
+        raise MjcontError(f"the energy of {field.name} is not known: give it, VectorField(..., energy=lambda u, p: ..)")
     at, weights = np.polynomial.legendre.leggauss(_QUADRATURE)
     at, weights, n = 0.5 * (1.0 + at), 0.5 * weights, inner.c // 2
 
@@ -294,3 +298,57 @@ def keeps_energy(flow: Conserving, values: Values) -> bool:
 def flow_as_recorded(inner: ModelFlow, record: Mapping[str, Any]) -> Conserving:
     """Return the motion as files keep it."""
     return conserving(inner, record["chosen_by"], bool(record["even"]), np.array(record["rest"], dtype=float))
+
+
+# -- what is left out ------------------------------------------------------------------------------------------
+
+
+def without_losses(
+    inner: ModelFlow, x: Array, values: Values, chosen_by: str
+) -> tuple[Conserving, dict[str, float], list[str]]:
+    """Return the motion that keeps energy, its parameter values, and sentences on what is left out.
+
+    Raises
+    ------
+    MjcontError, StartError
+        If none does, or nothing rests.
+    """
+    flow, even = _conserving(inner, x, values, chosen_by)
+    left = _names_of_losses(inner, values) if even else []
+    if not keeps_energy(flow, values):
+        controls = [n for n, p in inner.model.parameters.items() if p.kind == "control" and values[n] != 0.0]
+        still = {**values, **dict.fromkeys(controls, 0.0)}
+        bad = [n for n in controls if not _keeps(inner, x, {**still, n: values[n]}, chosen_by)]
+        values = {**values, **dict.fromkeys(bad, 0.0)}
+        left += [f"input {n}, which has no potential" for n in bad]
+        flow, _ = _conserving(inner, x, values, chosen_by)
+        if not bad or not keeps_energy(flow, values):
+            raise MjcontError(f"the energy of {inner.model.name} changes along its motions, also without what resists "
+                              "them: modes want forces with a potential")
+    notes = [f"left out: {'; '.join(left)}"] if left else []
+    return flow, dict(values), notes
+
+
+def _keeps(inner: ModelFlow, x: Array, values: Values, chosen_by: str) -> bool:
+    try:
+        return keeps_energy(_conserving(inner, x, values, chosen_by)[0], values)
+    except StartError:
+        return False
+
+
+def _conserving(inner: ModelFlow, x: Array, values: Values, chosen_by: str) -> tuple[Conserving, bool]:
+    found = find_start(inner.model, x, values)
+    if found.failure is not None:
+        raise StartError(f"no equilibrium found at which modes could begin: {found.failure}")
+    rest = inner.resting(found.x, values)
+    even = loses(inner, rest, values)
+    return conserving(inner, chosen_by, even, rest), even
+
+
+def _names_of_losses(inner: ModelFlow, values: Values) -> list[str]:
+    otherwise = ["what depends on the direction of motion"]
+    if isinstance(inner, FieldFlow):
+        return otherwise
+    from mjcont.mechanism.moving import losses  # MuJoCo is imported only where there is a Mechanism
+
+    return losses(inner.model, values) or otherwise

@@ -14,6 +14,7 @@ from mjcont.numerics.equations.newton import Corrected
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.orbits import (
+    conserved,
     defining,
     detectors,
     fast,
@@ -61,6 +62,27 @@ class BadFlow(Flow):
 
     def period(self, values):
         return 2.0 * math.pi
+
+
+class BadConservingFlow(BadFlow, conserved.ConservativeFlow):
+    """The same, of which an energy is said to be kept."""
+
+    chosen_by = conserved.ENERGY
+
+    def values(self, given=None):
+        return {**self.field.values({k: v for k, v in (given or {}).items() if k != "energy"}), "energy": 1.0}
+
+    def energies(self, states, values):
+        return self.rates(states, None, values)[:, 0]
+
+    def energy_slopes(self, states, values):
+        return np.full(states.shape, ENTRIES.get(self.kind, 0.0))
+
+    def energy_rate(self, state, values, name):
+        return ENTRIES.get(self.kind, 0.0)
+
+    def unfolding(self, states, values):
+        return self.rates(states, None, values)
 
 
 @dataclass(frozen=True)
@@ -114,6 +136,22 @@ class BadMotion:
     def matrix(self):
         return self.system.jacobian(self.local, self.y)
 
+    @cached_property
+    def keeping(self):
+        """The equations of its orbits, as if an energy were kept."""
+        flow = BadConservingFlow(self.kind, self.order, False)
+        del flow.values  # those of the class, with the energy
+        return conserved.orbits_on(
+            flow, self.path.scheme, self.path.mesh, self.path.s, self.shift, np.ones(flow.d), self.path.period
+        )
+
+    def kept_multipliers(self):
+        orbits, s = self.keeping, self.path.s[0]
+        linear = orbits.linearize(orbits.joined(self.path), orbits.flow.values(), ("p", "energy"))
+        assert linear.jac.shape == (orbits.n, orbits.n)
+        m = conserved.own_multipliers(orbits, linear.blocks, self.path.period, s, s)
+        assert len(m.values) == len(m.own) + 2 == orbits.flow.d
+
     @property
     def blocks(self):
         return self.local.linearization.blocks
@@ -154,6 +192,9 @@ def walk(bad):
 
 BARE = np.full((3, 2, 2), math.nan)
 CASES = {
+    "conserved.orbits_on": lambda b: b.keeping,
+    "conserved.ConservedOrbits": lambda b: b.keeping.residual(b.keeping.joined(b.path), b.keeping.flow.values()),
+    "conserved.own_multipliers": BadMotion.kept_multipliers,
     "collocation.Orbits": lambda b: b.orbits.residual(b.x, b.values),
     "collocation.OrbitLinearization": lambda b: b.local.jac,
     "defining.orbits_of": lambda b: defining.orbits_of(b.local),
@@ -210,7 +251,8 @@ CASES = {
 }
 # records, and bases of what stands above
 PLAIN = {
-    "collocation.Blocks", "defining.Multiplier", "fast.FastModes", "floquet.Multipliers", "flow.Rates", "flow.Flow",
+    "collocation.Blocks", "conserved.ConservativeFlow", "defining.Multiplier", "fast.FastModes", "floquet.Multipliers",
+    "flow.Rates", "flow.Flow",
     "follow.MeshSettings", "scheme.Scheme", "switch.Departure",
 }  # fmt: skip
 BAD = [BadMotion(kind, order, forced) for kind in FIELDS for order in (1, 2) for forced in (False, True)]

@@ -1,31 +1,27 @@
-"""What takes energy from a mechanism's motion, by name."""
+"""What resists a model's motion, by name."""
 
 from __future__ import annotations
 
 import mujoco
 import numpy as np
 
-from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.actuators import actuator_name
 from mjcont.models.states import element_name
-from mjcont.numerics.equations.problem import Values
 
 _OBJ = mujoco.mjtObj
 _SHOWN = 6
 
 
-def losses(mechanism: Mechanism, values: Values) -> list[str]:
-    """Return what resists a mechanism's motion at parameter values, a phrase each."""
-    core = mechanism._core
-    core.writer.write(mechanism.parameters, values)
-    m = core.model
+def resistances(model: mujoco.MjModel) -> list[str]:
+    """Return what takes energy from a model's motion, a phrase each."""
+    m = model
     on_joints = (m.dof_damping != 0.0) | (m.dof_dampingpoly != 0.0).any(axis=1)
     joints = [element_name(m, _OBJ.mjOBJ_JOINT, int(j)) for j in np.unique(m.dof_jntid[on_joints])]
     on_tendons = (m.tendon_damping != 0.0) | (m.tendon_dampingpoly != 0.0).any(axis=1)
     tendons = [element_name(m, _OBJ.mjOBJ_TENDON, int(t)) for t in np.flatnonzero(on_tendons)]
     actuators = [actuator_name(m, a) for a in range(m.nactuator) if _resists(m, a)]
-    found = [_phrase(kind, names) for kind, names in
-             (("joint", joints), ("tendon", tendons), ("actuator", actuators)) if names]
+    named = (("joint", joints), ("tendon", tendons), ("actuator", actuators))
+    found = [_phrase(kind, names) for kind, names in named if names]
     if m.opt.density or m.opt.viscosity:
         found.append("the resistance of the medium")
     return found
