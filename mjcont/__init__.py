@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     from mjcont.motion.histories import simulate, simulate_many
     from mjcont.motion.loadpaths import load_path
     from mjcont.numerics.equations.settings import Settings
+    from mjcont.oscillation.backbone import backbone
     from mjcont.oscillation.cycles import continue_cycles, find_cycle
     from mjcont.oscillation.forced import Harmonic
     from mjcont.oscillation.loci import continue_special
@@ -82,6 +83,7 @@ _HOMES = {
     "mjcont.curves.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.curves.diagram": ("bifurcation_diagram", "switch_branches"),
     "mjcont.curves.extension": ("extend",),
+    "mjcont.oscillation.backbone": ("backbone",),
     "mjcont.oscillation.loci": ("continue_special",),
     "mjcont.oscillation.nonlinear": ("continue_modes",),
     "mjcont.curves.search": ("find_equilibria",),
@@ -176,6 +178,7 @@ __all__ = [
     "add_bushes",
     "add_poses",
     "animate",
+    "backbone",
     "barrier_along",
     "barrier_map",
     "bifurcation_diagram",

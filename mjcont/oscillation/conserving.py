@@ -24,6 +24,7 @@ from mjcont.results.quantities import Parameter
 from mjcont.vectorfield import VectorField
 
 CHOICES = (ENERGY, FREQUENCY)
+_POSITIVE = (1e-300, 1e300)
 # states in which laws are looked for, how far from rest, and what counts as none of the largest
 _SAMPLES, _BESIDE, _NONE = 4, (0.1, 1e-2, 1e-3, 1e-4), 1e-9
 # what remains of the energy's rate, of the largest of its terms, by rounding of differences
@@ -54,8 +55,8 @@ class Conserving(ModelFlow, ConservativeFlow):
         self._energy, self._moves = energy, has_velocities(inner, rest)
         self.energy_unit = "" if isinstance(inner, FieldFlow) else "J"
         unit = "Hz" if chosen_by == FREQUENCY else self.energy_unit
-        self._own = Parameter(chosen_by, unit, 1.0, (1e-3, 1e3), "forcing", hard_bounds=(1e-300, np.inf),
-                              limit="the positive numbers {range}")
+        self._own = Parameter(chosen_by, unit, 1.0, _POSITIVE, "forcing", hard_bounds=_POSITIVE,
+                              limit="the positive numbers")
 
     def chosen(self, by: str) -> Conserving:
         """Return the same motion with orbits told by another number."""

@@ -16,7 +16,7 @@ import numpy as np
 
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import start_from
-from mjcont.errors import MjcontError, ParameterError, unknown_name
+from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.orbits.conserved import ENERGY, FREQUENCY
 from mjcont.oscillation.conserving import CHOICES, Conserving, without_losses
@@ -55,7 +55,8 @@ def continue_modes(
         resonances). Any other orbit of one: its own curve.
     parameter : {"energy", "frequency"}
         What varies: the energy beyond that at rest (J), or 1 / period (Hz).
-    bounds : (low, high), positive
+    bounds : (low, high)
+        Positive; of an orbit's own curve by default those it has.
     start : dict of parameter values, or a point of any result, optional
     mode : int
         Which linear mode, counted from 1 by rising frequency among those that swing.
@@ -82,9 +83,26 @@ def continue_modes(
         return _from_orbit(origin, parameter, bounds, stop, progress, options)
     if not isinstance(origin, Model):
         raise MjcontError(f"modes begin at a model, or at an orbit of a curve of modes; got {type(origin).__name__}")
+    return _from_rest(origin, parameter, bounds, start, mode, keyframe, state, stop, progress, options)
+
+
+def _from_rest(
+    origin: Model,
+    parameter: str,
+    bounds: tuple[float, float] | None,
+    start: Mapping[str, float] | Point | None,
+    mode: int,
+    keyframe: str | None,
+    state: Any,
+    stop: Stop | None,
+    progress: Progress | None,
+    options: Mapping[str, Any],
+) -> CycleBranch:
     x, values = start_from(origin, _plain(start), keyframe, state)
     flow, values, notes = without_losses(_unforced(origin), x, values, parameter)
     read = read_options(flow, {"scheme": "gauss", **options})
+    if bounds is None:
+        raise BoundsError(f"give the range of the {parameter}: bounds=(low, high), in {flow.parameter(parameter).unit}")
     low, high = check_bounds(flow, parameter, bounds)
     free = Free(parameter, low, high, flow.parameter(parameter).unit)
     number, chosen = _checked_mode(linear_modes(flow, values), mode)
@@ -139,6 +157,8 @@ def _from_orbit(
     twice = parameter == FREQUENCY and isinstance(point, SpecialOrbit) and point.kind == "PD"
     value = float(orbit.energy or 0.0) if parameter == ENERGY else orbit.frequency
     turned = _told_by(point, orbit, flow, value)
+    if bounds is None and not (isinstance(point, SpecialOrbit) and parameter in point.free):
+        raise BoundsError(f"give the range of the {parameter}: bounds=(low, high)")
     free = bounded(flow, turned, parameter, bounds)
     system, entries, origin = entries_at(flow, turned, free)
     if twice:

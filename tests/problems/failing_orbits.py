@@ -26,6 +26,7 @@ from mjcont.numerics.orbits import (
     mesh,
     passing,
     points,
+    quadrature,
     switch,
 )
 from mjcont.numerics.orbits.flow import Flow, Rates
@@ -152,6 +153,13 @@ class BadMotion:
         m = conserved.own_multipliers(orbits, linear.blocks, self.path.period, s, s)
         assert len(m.values) == len(m.own) + 2 == orbits.flow.d
 
+    def in_quadrature(self):
+        made = quadrature.InQuadrature(
+            lambda u, tau, p: self.flow.rates(u, tau, p)[:, 0], lambda tau, p: 2.0 * np.pi * tau, 1.0
+        )
+        self.condition(made)
+        assert made.gradient(self.local, self.system, self.y).shape == (1, self.orbits.n + 1)
+
     @property
     def blocks(self):
         return self.local.linearization.blocks
@@ -245,6 +253,7 @@ CASES = {
     "points.multipliers_at": lambda b: points.multipliers_at(b.point()),
     "points.error_at": lambda b: points.error_at(b.point()),
     "points.unstable": lambda b: points.unstable(points.multipliers_at(b.point())),
+    "quadrature.InQuadrature": BadMotion.in_quadrature,
     "switch.doubled": lambda b: switch.doubled(b.flow, b.path, b.shift, b.system, b.x, b.y),
     "switch.crossing": lambda b: switch.crossing(b.system, b.x, b.y, b.point().tangent),
     "switch.system_at": lambda b: switch.system_at(b.flow, b.path, b.shift, b.values, tuple(b.system.free)),
