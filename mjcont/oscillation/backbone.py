@@ -72,29 +72,40 @@ def backbone(
     """
     if not isinstance(response, CycleBranch) or response.kind != RESPONSES or len(response.free) != 1:
         raise MjcontError("a backbone belongs to a curve of responses in frequency (continue_response)")
-    flow, (frequency,) = flow_for(response.model, response.forcing), response.free
-    name, harmonic = _input(flow)
-    parameter = parameter or (f"{name}.amplitude" if name else None)
-    if parameter is None or parameter == frequency:
-        raise ParameterError("name the parameter that varies beside the frequency, such as the amplitude of the input")
-    low, high = check_bounds(flow, parameter, bounds)
-    seen = _observable(flow, response, name, observable)
-    begin = _resonance(response, seen, _turns(flow) * harmonic, f"{name}.phase" if name else None)
-    condition = _quarter_turn(flow, begin, seen, name, harmonic)
+    flow = flow_for(response.model, response.forcing)
+    free, condition, begin = _sought(flow, response, parameter, bounds, observable)
     own = {"scheme": begin.path.scheme.name, "degree": begin.path.scheme.degree}
     read = read_options(flow, {**own, **options})
-    span = response.free[frequency]
-    unbounded = Free(frequency, *span, flow.parameter(frequency).unit, False)
-    free = (Free(parameter, low, high, flow.parameter(parameter).unit), unbounded)
-    (orbits, x), values = _settled(flow, begin, unbounded, condition)
-    if not low <= values[parameter] <= high:
-        raise StartError(f"the response has {parameter} = {free[0].show(values[parameter])}, outside the bounds "
-                         f"{free[0].show(low)} .. {free[0].show(high)}")
+    lead, tuned = free
+    (orbits, x), values = _settled(flow, begin, tuned, condition)
+    if not lead.low <= values[lead.name] <= lead.high:
+        raise StartError(f"the response has {lead.name} = {lead.show(values[lead.name])}, outside the bounds "
+                         f"{lead.show(lead.low)} .. {lead.show(lead.high)}")
     system = System(orbits, values, free, [condition])
     entries = [Entry(sign, x, system.start_y(), None) for sign in check_direction(direction)]
     special = Special(_nothing, _held(condition), frozenset())
-    where = f"where {seen} lags its input by a quarter turn, at {unbounded.show(values[frequency])}"
+    where = f"a phase lag of a quarter turn at {tuned.name} = {tuned.show(values[tuned.name])}"
     return run(BACKBONE, system, entries, read, where, stop, progress, (), special)
+
+
+def _sought(
+    flow: ModelFlow,
+    response: CycleBranch,
+    parameter: str | None,
+    bounds: tuple[float, float] | None,
+    observable: str | None,
+) -> tuple[tuple[Free, Free], InQuadrature, Orbit]:
+    """Return the free parameters, the condition, and an orbit that nearly fulfils it."""
+    (tuned,), (name, harmonic) = response.free, _input(flow)
+    parameter = parameter or (f"{name}.amplitude" if name else None)
+    if parameter is None or parameter == tuned:
+        raise ParameterError(f"name the parameter that varies beside {tuned}, such as the amplitude of the input")
+    low, high = check_bounds(flow, parameter, bounds)
+    seen = _observable(flow, response, name, observable)
+    begin = _resonance(response, seen, _turns(flow) * harmonic, f"{name}.phase" if name else None)
+    free = Free(parameter, low, high, flow.parameter(parameter).unit)
+    free_too = Free(tuned, *response.free[tuned], flow.parameter(tuned).unit, False)
+    return (free, free_too), _quarter_turn(flow, begin, seen, name, harmonic), begin
 
 
 def _turns(flow: ModelFlow) -> int:
