@@ -52,10 +52,12 @@ if TYPE_CHECKING:
     from mjcont.motion.histories import simulate, simulate_many
     from mjcont.motion.loadpaths import load_path
     from mjcont.numerics.equations.settings import Settings
+    from mjcont.oscillation.backbone import backbone
     from mjcont.oscillation.cycles import continue_cycles, find_cycle
     from mjcont.oscillation.forced import Harmonic
     from mjcont.oscillation.loci import continue_special
     from mjcont.oscillation.modes import modes
+    from mjcont.oscillation.nonlinear import continue_modes
     from mjcont.oscillation.responses import continue_response
     from mjcont.oscillation.transfer import transfer
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
@@ -81,7 +83,9 @@ _HOMES = {
     "mjcont.curves.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.curves.diagram": ("bifurcation_diagram", "switch_branches"),
     "mjcont.curves.extension": ("extend",),
+    "mjcont.oscillation.backbone": ("backbone",),
     "mjcont.oscillation.loci": ("continue_special",),
+    "mjcont.oscillation.nonlinear": ("continue_modes",),
     "mjcont.curves.search": ("find_equilibria",),
     "mjcont.curves.stiffness": ("stiffness_study",),
     "mjcont.drawing.animation": ("animate",),
@@ -174,6 +178,7 @@ __all__ = [
     "add_bushes",
     "add_poses",
     "animate",
+    "backbone",
     "barrier_along",
     "barrier_map",
     "bifurcation_diagram",
@@ -181,6 +186,7 @@ __all__ = [
     "constraint_stiffness",
     "continue_cycles",
     "continue_equilibria",
+    "continue_modes",
     "continue_response",
     "continue_special",
     "draw",

@@ -65,6 +65,9 @@ class VectorField(Model):
     period : callable, optional
         `period(p)` returns the period of the forcing, in s. Such a field has responses (`continue_response`), no
         equilibria.
+    energy : callable, optional
+        `energy(u, p)` returns what the motion keeps, where it keeps it: its orbits are then nonlinear normal modes
+        (`continue_modes`).
 
     Raises
     ------
@@ -89,8 +92,9 @@ class VectorField(Model):
         bounds: Mapping[str, tuple[float, float]] | None = None,
         name: str = "vector field",
         period: Callable[[Values], float] | None = None,
+        energy: Callable[[Array, Values], float] | None = None,
     ) -> None:
-        self.name, self.period = name, period
+        self.name, self.period, self.energy = name, period, energy
         self.timed = _takes_time(function)
         self.n = np.size(u0)
         if self.n == 0:

@@ -32,8 +32,8 @@ def orbits_at_value(branch: CycleBranch, name: str, value: float) -> list[OrbitP
         a, j = float(column[i]), min(i + 1, len(branch) - 1)
         b = float(column[j])
         if a == 0.0 or a * b < 0.0:
-            between = _between(branch.orbits[i], branch.orbits[j], a / (a - b) if a else 0.0)
-            point = settled(flow, between, {**branch.parameters_at(i), name: value}, branch.orbits[i].shift, branch)
+            near = between(branch.orbits[i], branch.orbits[j], a / (a - b) if a else 0.0)
+            point = settled(flow, near, {**branch.parameters_at(i), name: value}, branch.orbits[i].shift, branch)
             found += [point] if point is not None else []
     return found
 
@@ -41,7 +41,8 @@ def orbits_at_value(branch: CycleBranch, name: str, value: float) -> list[OrbitP
 _SHARPER = 0.01
 
 
-def _between(one: Orbit, other: Orbit, fraction: float) -> Path:
+def between(one: Orbit, other: Orbit, fraction: float) -> Path:
+    """Return what lies between two orbits of a curve."""
     a, b = one.path, other.path.carried(one.path.mesh)
     s, w = ((1.0 - fraction) * x + fraction * y for x, y in ((a.s, b.s), (a.w, b.w)))
     return replace(a, s=s, w=w, period=(1.0 - fraction) * a.period + fraction * b.period)

@@ -23,7 +23,7 @@ from mjcont.oscillation.starts import harmonic_orbit, hopf_vector
 from mjcont.oscillation.walks import Entry, Options, Stop, flow_of, read_options, run
 from mjcont.results.histories import History
 from mjcont.results.model import Model, check_bounds
-from mjcont.results.orbits import CYCLES, RESPONSES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit
+from mjcont.results.orbits import CYCLES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point, SpecialPoint
 from mjcont.vectorfield import VectorField
 
@@ -112,7 +112,7 @@ def from_orbit(
     system, entries, origin = entries_at(flow, point, free)
     if all(e.row is None for e in entries):
         entries = [e for e in entries if e.direction in check_direction(direction)]
-    return run(RESPONSES if flow.forced else CYCLES, system, entries, read, origin, stop, progress)
+    return run(flow.curve, system, entries, read, origin, stop, progress)
 
 
 def _from_hopf(

@@ -13,7 +13,7 @@ from mjcont.numerics.orbits.flow import Flow
 from mjcont.numerics.orbits.path import Path
 from mjcont.oscillation.forced import FREQUENCY, Forcing, forcing_parameter, split
 from mjcont.results.model import Model
-from mjcont.results.orbits import Reading
+from mjcont.results.orbits import CYCLES, RESPONSES, Reading
 from mjcont.results.quantities import Parameter
 
 # speed, relative to what a state's own size would bring about, that counts as none
@@ -33,6 +33,11 @@ class ModelFlow(Flow):
 
     model: Model
     forcing: Forcing | None
+
+    @property
+    def curve(self) -> str:
+        """What a curve of its orbits is called."""
+        return RESPONSES if self.forced else CYCLES
 
     @abstractmethod
     def measured(self, states: Array, phases: Array, values: Values) -> Array:

@@ -21,6 +21,7 @@ from mjcont.numerics.step.arclength import CurvePoint, tangent_at
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace
 from mjcont.oscillation.collect import collect, flow_at, make_orbit, reporter, verdict
+from mjcont.oscillation.conserving import flow_as_recorded
 from mjcont.oscillation.fields import FieldFlow
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import Forcing, Harmonic, make_forcing
@@ -97,6 +98,8 @@ def flow_of(problem: Model, forcing: Forcing | None = None) -> ModelFlow:
 
 def flow_for(model: Model, record: Mapping[str, Any]) -> ModelFlow:
     """Return the motion of a model under forcing as files keep it."""
+    if "conserves" in record:
+        return flow_as_recorded(flow_of(model), record["conserves"])
     periods = int(record.get("periods", 1))
     if not record.get("inputs"):
         return FieldFlow(model, None, periods) if isinstance(model, VectorField) else flow_of(model)

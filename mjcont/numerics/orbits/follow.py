@@ -19,6 +19,7 @@ from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.collocation import Orbits
+from mjcont.numerics.orbits.conserved import orbits_on
 from mjcont.numerics.orbits.flow import Flow
 from mjcont.numerics.orbits.linger import lingering, shrunk_to
 from mjcont.numerics.orbits.mesh import count_for, equidistributed, error_of
@@ -82,7 +83,7 @@ def laid(flow: Flow, path: Path, shift: Array) -> Orbits:
     if flow.order == 2:
         scale[flow.c :] = scale[: flow.c] * 2.0 * math.pi / path.period
     sizes = np.maximum(np.sqrt(path.lengths @ squares), scale)
-    return Orbits(flow, path.scheme, path.mesh, path.slopes(path.mesh), shift, sizes, path.period)
+    return orbits_on(flow, path.scheme, path.mesh, path.slopes(path.mesh), shift, sizes, path.period)
 
 
 def carried_tangent(old: System, point: CurvePoint, new: Orbits) -> Array:

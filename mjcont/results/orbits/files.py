@@ -115,5 +115,6 @@ def _read_orbits(g: h5py.Group, branch: Branch, multipliers: Sequence[Array], fo
         found.append(Orbit(
             path, reading, branch.parameters_at(i), all_units, multipliers[i], a["resolved"][i].astype(bool),
             int(a["trivial"][i]), float(a["error"][i]), branch.name, branch.problem, a["shift"][i], forcing, activated,
+            float(branch["energy"][i]) if "conserves" in forcing else None,
         ))
     return found

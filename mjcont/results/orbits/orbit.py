@@ -39,6 +39,7 @@ class Orbit:
     shift : what coordinates gain in a period, (d,): zero but for running orbits.
     forcing : what drives it, as `CycleBranch.forcing`.
     activated : how many of a state's last entries are activations of actuators.
+    energy : of a motion that keeps it, beyond that at rest; None of others.
     """
 
     path: Path
@@ -54,6 +55,7 @@ class Orbit:
     shift: Array = field(repr=False, default_factory=lambda: np.zeros(0))
     forcing: Mapping[str, Any] = field(repr=False, default_factory=dict)
     activated: int = field(repr=False, default=0)
+    energy: float | None = None
 
     @property
     def period(self) -> float:
@@ -69,6 +71,13 @@ class Orbit:
     def forced(self) -> bool:
         """Whether the period is that of a forcing."""
         return self.trivial < 0
+
+    @property
+    def own(self) -> Array:
+        """Which multipliers tell stability: not the 1 of a free period, there twice where energy is kept, (d,) bool."""
+        at, times = np.arange(len(self.multipliers)), 1 + ("conserves" in self.forcing)
+        found: Array = (at < self.trivial) | (at >= self.trivial + times) if self.trivial >= 0 else at >= 0
+        return found
 
     @property
     def exponents(self) -> Array:
@@ -134,7 +143,8 @@ class Orbit:
         """Return period, frequency and, of each observable, what the columns of a curve of orbits hold, by name."""
         read = readings(self.path, self.reading, self.forced)
         each = {f"{n}.{what}": float(v[k]) for k, n in enumerate(self.reading.names) for what, v in read.items()}
-        return {"period": self.period, "frequency": self.frequency, **each}
+        kept = {} if self.energy is None else {"energy": self.energy}
+        return {"period": self.period, "frequency": self.frequency, **kept, **each}
 
     def _column(self, name: str) -> int:
         own = column_of(name, self.reading.names)
@@ -173,6 +183,7 @@ class Orbit:
         """Return the values of the model's parameters that do not move."""
         driven = self.forcing.get("inputs", {})
         own = {"frequency", *(f"{n}{part}" for n in driven for part in ("", ".amplitude", ".phase"))} if driven else ()
+        own = (*own, self.forcing.get("conserves", {}).get("chosen_by"))
         return {n: v for n, v in self.parameters.items() if n not in own}
 
     def history(self, samples: int | None = None) -> History:
@@ -204,7 +215,7 @@ class Orbit:
 
     def __str__(self) -> str:
         """Return a one-line summary."""
-        largest = np.abs(np.delete(self.multipliers, self.trivial) if self.trivial >= 0 else self.multipliers)
+        largest = np.abs(self.multipliers[self.own])
         size = f"{largest.max():.6g}" if len(largest) else "none"
         return (
             f"{self.name}: orbit of period {self.period:.9g} s, {len(self.path.w)} intervals of degree "
