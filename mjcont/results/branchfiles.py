@@ -1,4 +1,4 @@
-"""Branches as HDF5 that other tools read, and as CSV.
+"""Branches as HDF5 that other tools read.
 
 Layout beside what `files` says (format version 2)::
 
@@ -28,7 +28,6 @@ from mjcont.results.branch import Branch
 from mjcont.results.certificates import Certificate
 from mjcont.results.files import (
     FORMAT_VERSION,
-    csv_columns,
     frozen,
     read_columns,
     read_values,
@@ -162,9 +161,3 @@ def _read_mark(g: h5py.Group, label: str) -> Mark:
         vectors={k: v[()] for k, v in g["vectors"].items()} if "vectors" in g else {},
         note=str(g.attrs["note"]),
     )
-
-
-def write_csv(branch: Branch, path: str | Path, *, degrees: bool = True) -> Path:
-    """Write the columns of a branch with units in the header; angles in degrees on request."""
-    extra = list(zip(branch.stability, (int(n) for n in branch.n_unstable), branch.labels, strict=True))
-    return csv_columns(branch.columns, path, ("stability", "unstable eigenvalues", "label"), extra, degrees=degrees)

@@ -1,4 +1,4 @@
-"""What all result files share: a header, columns, the model, a seal; CSV. Nothing read from a file is executed.
+"""What all result files share: a header, columns, the model, a seal. Nothing read from a file is executed.
 
 Every HDF5 file begins with (format version 2; behind it stands the seal of `outside/sealing.py`)::
 
@@ -15,9 +15,8 @@ version 1 names stood for themselves, as paths, and nothing was sealed.
 from __future__ import annotations
 
 import json
-import math
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +24,6 @@ import h5py
 import numpy as np
 
 from mjcont.errors import ModelWarning
-from mjcont.outside.csvfiles import write_table
 from mjcont.outside.hdf5names import key
 from mjcont.outside.saving import write_file
 from mjcont.outside.sealing import sealed_file
@@ -111,23 +109,3 @@ def frozen(array: np.ndarray) -> np.ndarray:
     """Return an array made read-only."""
     array.flags.writeable = False
     return array
-
-
-def csv_columns(
-    columns: Mapping[str, Column],
-    path: str | Path,
-    more: Sequence[str] = (),
-    extra: Sequence[Sequence[Any]] = (),
-    *,
-    degrees: bool = True,
-) -> Path:
-    """Write columns as CSV, with further cells `extra` under the headings `more`."""
-    units = {c.name: c.unit for c in columns.values()}
-    turn = [degrees and u == "rad" for u in units.values()]
-    header = [f"{n} [{'deg' if t else u}]" if u else n for (n, u), t in zip(units.items(), turn, strict=True)]
-    rows = np.column_stack([c.values for c in columns.values()])
-    rows[:, turn] = np.degrees(rows[:, turn])
-
-    body = ([*(v if math.isfinite(v) else "" for v in row), *(extra[i] if extra else ())]
-            for i, row in enumerate(rows.tolist()))
-    return write_table(path, [*header, *more], body)

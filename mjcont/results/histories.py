@@ -13,7 +13,7 @@ Layout of a file beside what `files` says (format version 2)::
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,6 @@ from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.files import (
     FORMAT_VERSION,
-    csv_columns,
     frozen,
     read_columns,
     read_values,
@@ -36,12 +35,15 @@ from mjcont.results.files import (
 from mjcont.results.model import Model
 from mjcont.results.points import Column
 from mjcont.results.quantities import column_of
+from mjcont.results.text import Cells, Shown, Tabular
 
 KIND = "history"
+# columns that are drawn without being named
+_SHOWN = 4
 
 
-@dataclass(frozen=True, slots=True)
-class History:
+@dataclass(frozen=True, slots=True, repr=False)
+class History(Tabular, Shown):
     """A time history.
 
     Attributes
@@ -93,6 +95,19 @@ class History:
         """Units of all columns."""
         return {c.name: c.unit for c in self.columns.values()}
 
+    def plot(self, *columns: str) -> Any:
+        """Draw columns against time, one below the other, and return the figure; by default the first few observables.
+
+        Raises
+        ------
+        NameLookupError
+            If there is no such column.
+        """
+        from mjcont.drawing.charts import draw_history
+
+        own = [c.name for c in self.columns.values() if c.role == "observable"][:_SHOWN]
+        return draw_history(self, columns or own or [n for n in self.columns if n != "time"])
+
     def save(self, path: str | Path) -> Path:
         """Write the history to an HDF5 file (replacing it whole or not at all) and return the path."""
         return save_hdf5(path, self._write)
@@ -111,9 +126,8 @@ class History:
         f["states"], f["velocities"] = self.states, self.velocities
         write_values(f, "fixed", self.fixed)
 
-    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
-        """Write the columns as CSV with units in the header."""
-        return csv_columns(self.columns, path, degrees=degrees)
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        return ((c.name, c.unit, c.values) for c in self.columns.values())
 
     def __str__(self) -> str:
         """Return a one-line summary."""

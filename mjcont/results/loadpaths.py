@@ -12,7 +12,7 @@ Layout of a file beside what `files` says (format version 2)::
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -25,9 +25,10 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
-from mjcont.results.files import FORMAT_VERSION, csv_columns, save_hdf5
+from mjcont.results.files import FORMAT_VERSION, save_hdf5
 from mjcont.results.model import Model
-from mjcont.results.points import Column, Point, show
+from mjcont.results.points import Point, show
+from mjcont.results.text import Cells, Shown, Tabular
 
 KIND = "load path"
 _SHOWN = 2
@@ -57,8 +58,8 @@ class Segment:
         return self.branch[name][:: self.direction]
 
 
-@dataclass(frozen=True, slots=True)
-class Jump:
+@dataclass(frozen=True, slots=True, repr=False)
+class Jump(Shown):
     """What happens where a rest is lost.
 
     Attributes
@@ -106,8 +107,8 @@ class Jump:
         return f"{self.label} ({what}): {changes}{energy}; {self.message}"
 
 
-@dataclass(frozen=True, slots=True)
-class LoadPath:
+@dataclass(frozen=True, slots=True, repr=False)
+class LoadPath(Tabular, Shown):
     """The quasi-static response to a load that follows a path.
 
     Attributes
@@ -170,11 +171,9 @@ class LoadPath:
                 return j
         raise unknown_name("jump", label, [j.label for j in self.jumps])
 
-    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
-        """Write the columns along the whole path as CSV with units in the header; a jump lies between two rows."""
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
         names = [*self.names, *(n for n in self.segments[0].branch.columns if n not in self.names)]
-        columns = {n: Column(n, self.unit(n), "path", self[n]) for n in names}
-        return csv_columns(columns, path, degrees=degrees)
+        return ((n, self.unit(n), self[n]) for n in names)
 
     def save(self, path: str | Path) -> Path:
         """Write the path to an HDF5 file (replacing it whole or not at all) and return the file's path."""

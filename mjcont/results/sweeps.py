@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -23,16 +23,17 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.files import FORMAT_VERSION, csv_columns, frozen, read_columns, save_hdf5, write_columns
+from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, save_hdf5, write_columns
 from mjcont.results.model import Model
 from mjcont.results.points import Column, show
+from mjcont.results.text import Cells, Shown, Tabular
 
 KIND = "sweep"
 _SHOWN_FAILURES = 5
 
 
-@dataclass(frozen=True, slots=True)
-class SweepTable:
+@dataclass(frozen=True, slots=True, repr=False)
+class SweepTable(Tabular, Shown):
     """Quantities of special points over many variants of a model; SI and radians.
 
     Attributes
@@ -110,12 +111,12 @@ class SweepTable:
             return draw_histogram(self, self._column(name), ax)
         return draw_scatter(self, self._column(against), self._column(name), ax)
 
-    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
-        """Write the table as CSV with units in the header, angles in degrees unless told otherwise."""
-        more = ("case", "continued from", "status", "message")
-        numbers = (map(int, self.cases), map(int, self.starts))
-        extra = list(zip(*numbers, map(str, self.status), self.messages, strict=True))
-        return csv_columns(self.columns, path, more, extra, degrees=degrees)
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        yield from ((c.name, c.unit, c.values) for c in self.columns.values())
+        yield "case", "", self.cases
+        yield "continued from", "", self.starts
+        yield "status", "", self.status
+        yield "message", "", self.messages
 
     def save(self, path: str | Path) -> Path:
         """Write the table as HDF5, whole or not at all; `mjcont.load` reads it."""
