@@ -1,6 +1,6 @@
 """Time histories, and their files.
 
-Layout of a file beside what `files` says (format version 2)::
+Layout of a file beside what `files` says (format version 3)::
 
     /               attributes: format, format_version, kind "history", name, status, message, settings (JSON), ...
     /model          the MJCF text (absent for a Mechanism made from a compiled model)
@@ -23,6 +23,7 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
+from mjcont.outside.hdf5text import Attributes
 from mjcont.results.files import (
     FORMAT_VERSION,
     frozen,
@@ -113,7 +114,7 @@ class History(Tabular, Shown):
         return save_hdf5(path, self._write)
 
     def _write(self, f: h5py.File) -> None:
-        f.attrs.update(
+        Attributes(f).update(
             format="mjcont",
             format_version=FORMAT_VERSION,
             kind=KIND,
@@ -146,16 +147,15 @@ def read(f: h5py.File, problem: Model | None) -> History:
     states, velocities = frozen(f["states"][()]), frozen(f["velocities"][()])
     if {len(velocities)} | {len(c.values) for c in columns.values()} != {len(states)}:
         raise ValueError("its columns differ in length")
-    prefix = "provenance_"
     return History(
         columns=columns,
         states=states,
         velocities=velocities,
-        status=str(f.attrs["status"]),
-        message=str(f.attrs["message"]),
-        settings=json.loads(f.attrs["settings"]),
-        name=str(f.attrs["name"]),
+        status=str(Attributes(f)["status"]),
+        message=str(Attributes(f)["message"]),
+        settings=json.loads(Attributes(f)["settings"]),
+        name=str(Attributes(f)["name"]),
         problem=problem,
         fixed=read_values(f, "fixed") if "fixed" in f else {},
-        provenance={k.removeprefix(prefix): str(v) for k, v in f.attrs.items() if k.startswith(prefix)},
+        provenance=Attributes(f).beginning("provenance_"),
     )

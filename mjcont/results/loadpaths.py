@@ -23,6 +23,7 @@ import numpy as np
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
+from mjcont.outside.hdf5text import Attributes, write_text
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
 from mjcont.results.files import FORMAT_VERSION, save_hdf5
@@ -180,7 +181,7 @@ class LoadPath(Tabular, Shown):
         return save_hdf5(path, self._write)
 
     def _write(self, f: h5py.File) -> None:
-        f.attrs.update(
+        Attributes(f).update(
             format="mjcont",
             format_version=FORMAT_VERSION,
             kind=KIND,
@@ -193,19 +194,19 @@ class LoadPath(Tabular, Shown):
         )
         mjcf = self.problem.mjcf if self.problem is not None else None
         if mjcf is not None:
-            f["model"] = mjcf
+            write_text(f, "model", mjcf)
         for i, s in enumerate(self.segments):
             g = f.create_group(f"segments/{i}")
             write_branch(s.branch, g, model=False)
-            g.attrs.update(direction=s.direction, leg=s.leg)
+            Attributes(g).update(direction=s.direction, leg=s.leg)
         for i, j in enumerate(self.jumps):
             g = f.create_group(f"jumps/{i}")
-            g.attrs.update(
+            Attributes(g).update(
                 label=j.label, kind=j.kind, index=j.index, energy_note=j.energy_note, time=j.time, steps=j.steps,
                 status=j.status, message=j.message, landed=j.after is not None,
             )
             if j.energy is not None:
-                g.attrs["energy"] = j.energy
+                Attributes(g)["energy"] = j.energy
             g["states"] = j.states
 
     def plot(self, x: str | None = None, y: str | None = None, **options: Any) -> Any:
@@ -246,10 +247,10 @@ def read(f: h5py.File, problem: Model | None) -> LoadPath:
     """Return the load path in a file."""
     groups = [f[f"segments/{i}"] for i in range(len(f["segments"]))]
     segments = [
-        Segment(read_branch(g, problem), int(g.attrs["direction"]), int(g.attrs["leg"])) for g in groups
+        Segment(read_branch(g, problem), int(Attributes(g)["direction"]), int(Attributes(g)["leg"])) for g in groups
     ]
     jumps = [_read_jump(f[f"jumps/{i}"], segments) for i in range(len(f["jumps"]) if "jumps" in f else 0)]
-    a = f.attrs
+    a = Attributes(f)
     return LoadPath(
         str(a["name"]), json.loads(a["vertices"]), tuple(segments), tuple(jumps), str(a["status"]),
         str(a["message"]), int(a["evaluations"]), problem,
@@ -257,7 +258,7 @@ def read(f: h5py.File, problem: Model | None) -> LoadPath:
 
 
 def _read_jump(g: h5py.Group, segments: list[Segment]) -> Jump:
-    a, index = g.attrs, int(g.attrs["index"])
+    a, index = Attributes(g), int(Attributes(g)["index"])
     rows = [(s, int(i)) for s in segments for i in s.rows()]
     before, at = rows[index]
     special = [p for p in before.branch.special_points if p.index == at]
