@@ -103,7 +103,7 @@ def find_equilibria(
         ended = search.run(first, starts, seed, limits, progress)
     energies = potential_energy(problem, np.array(search.kept), search.values)
     shown = tuple(name for name in search.ranges if name in problem.observables)
-    return gather(problem.name, search.points, search.hits, energies, ended, search.account(), search.notes, shown)
+    return gather(problem, search.points, search.hits, energies, ended, search.account(), search.notes, shown)
 
 
 def _prepare(problem: Model, values: dict[str, float], region: Region | None) -> _Search:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import astuple, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -26,11 +26,13 @@ from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
 from mjcont.numerics.points.passage import Passage
+from mjcont.outside.hdf5text import Attributes, write_text
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
-from mjcont.results.files import FORMAT_VERSION, csv_columns, save_hdf5
+from mjcont.results.files import FORMAT_VERSION, save_hdf5
 from mjcont.results.model import Model
-from mjcont.results.points import Column, Point, show
+from mjcont.results.points import Point, show
+from mjcont.results.text import Cells, Shown, Tabular
 
 KIND = "load path"
 _SHOWN = 2
@@ -76,8 +78,8 @@ class Delay:
     inertial: float
 
 
-@dataclass(frozen=True, slots=True)
-class Jump:
+@dataclass(frozen=True, slots=True, repr=False)
+class Jump(Shown):
     """What happens where a rest is lost.
 
     Attributes
@@ -173,8 +175,8 @@ class Jump:
         return f"late by {show(0.01 * self.load, unit, 3)} under a load of {show(rate, unit, 3)}/s"
 
 
-@dataclass(frozen=True, slots=True)
-class LoadPath:
+@dataclass(frozen=True, slots=True, repr=False)
+class LoadPath(Tabular, Shown):
     """The quasi-static response to a load that follows a path.
 
     Attributes
@@ -237,18 +239,16 @@ class LoadPath:
                 return j
         raise unknown_name("jump", label, [j.label for j in self.jumps])
 
-    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
-        """Write the columns along the whole path as CSV with units in the header; a jump lies between two rows."""
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
         names = [*self.names, *(n for n in self.segments[0].branch.columns if n not in self.names)]
-        columns = {n: Column(n, self.unit(n), "path", self[n]) for n in names}
-        return csv_columns(columns, path, degrees=degrees)
+        return ((n, self.unit(n), self[n]) for n in names)
 
     def save(self, path: str | Path) -> Path:
         """Write the path to an HDF5 file (replacing it whole or not at all) and return the file's path."""
         return save_hdf5(path, self._write)
 
     def _write(self, f: h5py.File) -> None:
-        f.attrs.update(
+        Attributes(f).update(
             format="mjcont",
             format_version=FORMAT_VERSION,
             kind=KIND,
@@ -261,21 +261,21 @@ class LoadPath:
         )
         mjcf = self.problem.mjcf if self.problem is not None else None
         if mjcf is not None:
-            f["model"] = mjcf
+            write_text(f, "model", mjcf)
         for i, s in enumerate(self.segments):
             g = f.create_group(f"segments/{i}")
             write_branch(s.branch, g, model=False)
-            g.attrs.update(direction=s.direction, leg=s.leg)
+            Attributes(g).update(direction=s.direction, leg=s.leg)
         for i, j in enumerate(self.jumps):
             g = f.create_group(f"jumps/{i}")
-            g.attrs.update(
+            Attributes(g).update(
                 label=j.label, kind=j.kind, index=j.index, energy_note=j.energy_note, time=j.time, steps=j.steps,
                 status=j.status, message=j.message, landed=j.after is not None,
             )
             if j.energy is not None:
-                g.attrs["energy"] = j.energy
+                Attributes(g)["energy"] = j.energy
             if j.passage is not None:
-                g.attrs.update(parameter=j.parameter, load=j.load, passage=astuple(j.passage))
+                Attributes(g).update(parameter=j.parameter, load=j.load, passage=astuple(j.passage))
             g["states"] = j.states
 
     def plot(self, x: str | None = None, y: str | None = None, **options: Any) -> Any:
@@ -316,10 +316,10 @@ def read(f: h5py.File, problem: Model | None) -> LoadPath:
     """Return the load path in a file."""
     groups = [f[f"segments/{i}"] for i in range(len(f["segments"]))]
     segments = [
-        Segment(read_branch(g, problem), int(g.attrs["direction"]), int(g.attrs["leg"])) for g in groups
+        Segment(read_branch(g, problem), int(Attributes(g)["direction"]), int(Attributes(g)["leg"])) for g in groups
     ]
     jumps = [_read_jump(f[f"jumps/{i}"], segments) for i in range(len(f["jumps"]) if "jumps" in f else 0)]
-    a = f.attrs
+    a = Attributes(f)
     return LoadPath(
         str(a["name"]), json.loads(a["vertices"]), tuple(segments), tuple(jumps), str(a["status"]),
         str(a["message"]), int(a["evaluations"]), problem,
@@ -327,7 +327,7 @@ def read(f: h5py.File, problem: Model | None) -> LoadPath:
 
 
 def _read_jump(g: h5py.Group, segments: list[Segment]) -> Jump:
-    a, index = g.attrs, int(g.attrs["index"])
+    a, index = Attributes(g), int(Attributes(g)["index"])
     rows = [(s, int(i)) for s in segments for i in s.rows()]
     before, at = rows[index]
     special = [p for p in before.branch.special_points if p.index == at]
