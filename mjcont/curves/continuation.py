@@ -147,7 +147,7 @@ def continue_equilibria(
     stop : callable, optional
         `stop(point)` returns a sentence to end the curve there.
     progress : callable, optional
-        `progress(count, special)` after each point and special point.
+        `progress(count, found)` after each point; `found.kind` is that of a special point, empty at others.
     **options
         Fields of `Settings`: ds, ds_min, ds_max, angle, max_points, ...
 

@@ -81,7 +81,7 @@ def find_equilibria(
     keyframes : bool
         Whether the model's keyframes and initial pose are further starts.
     progress : callable, optional
-        `progress(starts, found)` after each batch of starts and for each equilibrium found.
+        `progress(starts, found)` after each batch of starts, with an empty `found.kind`, and for each equilibrium.
 
     Returns
     -------
@@ -326,7 +326,7 @@ class _Search:
                 if limits.reached(self):
                     return
             if progress is not None:
-                progress(self.drawn, None)
+                progress(self.drawn, Found("", {}, {}))
 
     def _add(self, x: Array, sign: float, limits: _Limits, progress: Progress | None) -> int:
         """Note an equilibrium, and return its place in the result, -1 if it has none."""

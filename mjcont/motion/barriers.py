@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.curves.collect import Amount
 from mjcont.curves.continuation import continue_equilibria, hold_rigid_modes
 from mjcont.curves.search import find_equilibria
 from mjcont.errors import MjcontError, ParameterError
@@ -60,13 +61,16 @@ def energy_barrier(point: Point, saddles: Saddles | None = None) -> Barrier:
     return _barrier(problem, point, _candidates(problem, point, saddles))
 
 
-def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: bool = True) -> BarrierCurve:
+def barrier_along(
+    branch: Branch, saddles: Saddles | None = None, *, search: bool = True, progress: Amount | None = None
+) -> BarrierCurve:
     """Return the energy barriers along the stable points of a branch.
 
     Rows closer to the last than a quarter of the branch's largest step are passed over, but for the branch's start,
     special points and the last one.
     Passes are taken from the branch itself, from `saddles`, and from a search over all equilibria at the ends and in
     the middle of the range, whose passes are followed from there. A pass that is on none of these is missed.
+    `progress(done, all)` hears of every rest.
 
     Raises
     ------
@@ -83,7 +87,7 @@ def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: boo
     rows = _spaced(branch, rows, labels)
     rests = [branch.row(i) for i in rows]
     folds = [labels[i].startswith("LP") for i in rows]
-    barriers = _along(branch, rests, folds, _listed(saddles), search)
+    barriers = _along(branch, rests, folds, _listed(saddles), search, progress)
     energy = np.array([b.energy for b in barriers])
     values = np.array([p[name] for p in rests])
     return BarrierCurve(name, branch.unit(name), values, energy, np.array(rows), tuple(barriers))
@@ -179,7 +183,8 @@ def _rest_at(branch: Branch, name: str, value: float) -> Point | None:
 
 
 def _along(
-    branch: Branch, rests: Sequence[Point], folds: Sequence[bool], saddles: Sequence[Any], search: bool
+    branch: Branch, rests: Sequence[Point], folds: Sequence[bool], saddles: Sequence[Any], search: bool,
+    progress: Amount | None = None,
 ) -> list[Barrier]:
     """Return the barriers of rests of a branch; passes found by a search are followed for the rests that come after."""
     if not rests:
@@ -197,6 +202,8 @@ def _along(
             found.append(Barrier(0.0, rest, rest, None, 0, "a fold: the rest meets its pass"))
         else:
             found.append(_barrier(problem, rest, _candidates(problem, rest, known)))
+        if progress is not None:
+            progress(len(found), len(rests))
     return found
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.curves.collect import collect, run_directions
+from mjcont.curves.collect import Amount, Progress, collect, run_directions
 from mjcont.curves.continuation import find_equilibrium, hold_rigid_modes
 from mjcont.curves.walkers import equilibrium_detectors
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
@@ -55,6 +55,7 @@ def load_path(
     landing: str = "motion",
     max_time: float = 1000.0,
     max_jumps: int = 50,
+    progress: Amount | None = None,
     **options: Any,
 ) -> LoadPath:
     """Return the quasi-static response to a load that follows a path.
@@ -74,6 +75,7 @@ def load_path(
         large damping: quick, and never short of damping.
     max_time : in s, after which a motion counts as not coming to rest.
     max_jumps : number of jumps after which the path ends.
+    progress : called as progress(legs done, all), with the part of the present leg that is behind.
     **options : fields of `Settings`: ds, ds_max, ...
 
     Returns
@@ -98,12 +100,11 @@ def load_path(
     held, _ = hold_rigid_modes(problem, first.state, first.parameters)
     if first.n_unstable:
         raise StartError(f"the path begins at an unstable equilibrium, at which nothing rests: {first}")
-    follower = _Follower(held, settings, landing == "motion", max_time, max_jumps, [], [])
+    follower = _Follower(held, settings, landing == "motion", max_time, max_jumps, [], [], progress)
     status, message = follower.run(first, vertices)
-    return LoadPath(
-        problem.name, vertices, tuple(follower.segments), tuple(follower.jumps), status, message,
-        problem.evaluations - before + follower.stepped, problem,
-    )
+    count = problem.evaluations - before + follower.stepped
+    done = tuple(follower.segments), tuple(follower.jumps)
+    return LoadPath(problem.name, vertices, *done, status, message, count, problem)
 
 
 def _sourced(source: Any) -> tuple[Any, Branch | None]:
@@ -194,7 +195,9 @@ class _Follower:
     max_jumps: int
     segments: list[Segment]
     jumps: list[Jump]
+    progress: Amount | None = None
     stepped: int = 0
+    legs: int = 0
 
     def run(self, first: Point, vertices: Sequence[Values]) -> tuple[str, str]:
         """Follow all legs, as far as the time allows; return status and sentence."""
@@ -205,7 +208,7 @@ class _Follower:
             return "max time", f"the limit of {self.settings.max_seconds:g} s was reached"
 
     def _legs(self, first: Point, vertices: Sequence[Values]) -> tuple[str, str]:
-        at, rows = first, 0
+        at, rows, self.legs = first, 0, len(vertices) - 1
         for leg, target in enumerate(vertices[1:]):
             while any(target[n] != at.parameters[n] for n in target):
                 segment, ended, lost = self._follow(at, target, leg)
@@ -243,7 +246,8 @@ class _Follower:
         detectors = equilibrium_detectors(system, self.settings, {})
         stepper = OneByOne(system, self.settings, detectors)
         walker = Walker(stepper, _unstable(system, forward), frozenset({"LP", "HB", "BP"}))
-        traces = run_directions(walker, at.state, system.start_y(), (float(forward),), None)
+        heard = self._hearing(leg, name, (low, high))
+        traces = run_directions(walker, at.state, system.start_y(), (float(forward),), heard)
         if not traces[0].points:
             return None, (traces[0].end.status.value, traces[0].end.message), None
         branch = collect("equilibria", system, traces, (float(forward),), "along the load path", self.settings)
@@ -255,6 +259,14 @@ class _Follower:
                 there = [p for p in branch.special_points if p.index == end]
                 lost = replace(lost, point=there[0] if there else branch.row(end))
         return Segment(branch, forward, leg), branch.ends[0], lost
+
+    def _hearing(self, leg: int, name: str, ends: tuple[float, float]) -> Progress | None:
+        """Return what hears of the points of a leg whose parameter runs from one end to the other."""
+        progress = self.progress
+        if progress is None:
+            return None
+        (begin, end) = ends
+        return lambda count, found: progress(leg + (found.parameters[name] - begin) / (end - begin), self.legs)
 
     def _jump(self, lost: _Lost, target: Values, index: int) -> Jump:
         """Let the state at which the rest is lost move, and return the jump."""

@@ -67,7 +67,7 @@ def continue_cycles(
     stop : callable, optional
         `stop(point)` returns a sentence to end the curve there; `point.orbit` is its orbit.
     progress : callable, optional
-        `progress(count, special)` after each orbit and special point.
+        `progress(count, found)` after each orbit; `found.kind` is that of a special one, empty at others.
     **options
         `mesh`, `degree`, `scheme`, `tol`, `mesh_max`, `period_max`, and fields of `Settings` (ds, ds_max, ...).
 
