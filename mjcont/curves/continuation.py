@@ -25,6 +25,7 @@ from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.steps import End, Item, Status
 from mjcont.numerics.walk.trace import Walker
+from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch
 from mjcont.results.model import Model, check_bounds, model_of, warn_outside
 from mjcont.results.points import Point, SpecialPoint, show
@@ -60,6 +61,7 @@ def start_from(
 
 
 @np.errstate(all="ignore")
+@checked
 def find_equilibrium(
     problem: Model, start: Mapping[str, float] | Point | None = None, *, keyframe: str | None = None, state: Any = None
 ) -> Point:
@@ -110,6 +112,7 @@ def _start_name(problem: Model, start: Any, keyframe: str | None, state: Any) ->
 
 
 @np.errstate(all="ignore")
+@checked
 def continue_equilibria(
     problem: Model,
     parameter: str,
@@ -208,6 +211,7 @@ def _followed(
     return branch, branch.model.rescaled(np.abs(branch.states).max(axis=0))
 
 
+@checked
 def iterate_equilibria(
     problem: Model,
     parameter: str,

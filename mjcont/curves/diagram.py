@@ -26,6 +26,7 @@ from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.step.hermite import lagrange
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace, time_up, trace
+from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch, Diagram
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint
@@ -43,6 +44,7 @@ _CLUSTER = 0.05
 
 
 @np.errstate(all="ignore")
+@checked
 def switch_branches(
     point: SpecialPoint,
     bounds: tuple[float, float] | None = None,
@@ -79,7 +81,7 @@ def switch_branches(
 
 def _system_at(point: SpecialPoint, bounds: tuple[float, float] | None) -> System:
     ((name, own),) = point.free.items()
-    low, high = check_bounds(point.model, name, bounds or own)
+    low, high = check_bounds(point.model, name, own if bounds is None else bounds)
     if not low <= point.parameters[name] <= high:
         value = point.parameters[name]
         raise BoundsError(f"{point.label} has {name} = {value:g}, outside the bounds {low:g} .. {high:g}")
@@ -173,6 +175,7 @@ def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool
 
 
 @np.errstate(all="ignore")
+@checked
 def bifurcation_diagram(
     problem: Model,
     parameter: str,

@@ -28,6 +28,7 @@ from mjcont.numerics.spectra.spectrum import spectrum
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Trace, Walker, trace
+from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch
 from mjcont.results.model import check_bounds, model_of
 from mjcont.results.orbits import CycleBranch
@@ -38,6 +39,7 @@ _SAME = 1e-4
 
 
 @np.errstate(all="ignore")
+@checked
 def extend(
     branch: Branch,
     bounds: tuple[float, float] | Mapping[str, tuple[float, float]] | None = None,

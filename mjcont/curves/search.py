@@ -26,6 +26,7 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.search.coordinates import Coordinates, layout, with_turns
 from mjcont.numerics.search.deflation import Deflation, newton
 from mjcont.numerics.search.multistart import Many, Runs, levenberg_marquardt, spectral_step
+from mjcont.results.arguments import checked
 from mjcont.results.model import Model
 from mjcont.results.points import Point
 from mjcont.results.quantities import column_of, meant
@@ -46,6 +47,7 @@ _ROUNDS_FOR_NONE = 3
 _UNEVEN = 1.0 / math.e
 
 
+@checked
 def find_equilibria(
     problem: Model,
     params: Mapping[str, float] | Point | None = None,
@@ -218,6 +220,8 @@ class _Search:
 
     def run(self, first: list[Array], starts: int, seed: int, limits: _Limits, progress: Progress | None) -> str:
         """Search until nothing new turns up or a limit is reached, and return how it ended."""
+        if seed < 0:
+            raise ParameterError(f"seed must be a whole number from 0 on, got {seed}")
         sampler = qmc.Halton(self.problem.n, seed=seed)
         generator = np.random.default_rng(seed)
         rounds = barren = 0

@@ -11,6 +11,7 @@ from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import COLORS, LINE_STYLES, new_figure
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.numerics.equations.problem import Array
+from mjcont.results.arguments import checked
 from mjcont.results.orbits import CycleBranch, Orbit, orbit_of
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ _FINE = 16
 _TEXT = 9.0
 
 
+@checked
 def plot_orbits(
     *orbits: Any,
     x: str,

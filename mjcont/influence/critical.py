@@ -28,6 +28,7 @@ from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points import normalform
 from mjcont.numerics.points.events import ScalarZero
 from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of, name_of
+from mjcont.results.arguments import checked
 from mjcont.results.maps import FollowedPoint
 from mjcont.results.orbits import OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point, SpecialPoint, show
@@ -179,6 +180,7 @@ def check_alone(point: Point, name: str) -> None:
             )
 
 
+@checked
 def follow_point(
     point: SpecialPoint, values: Mapping[str, float], *, shortest: float = _SHORTEST, most: int = 400
 ) -> FollowedPoint:

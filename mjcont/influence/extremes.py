@@ -18,9 +18,11 @@ from mjcont.influence.sensitivities import sensitivities
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Why
 from mjcont.numerics.search.box import Minimum, minimise
+from mjcont.results.arguments import checked
 from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
 from mjcont.results.model import units as unit_of
 from mjcont.results.points import SpecialPoint, show
+from mjcont.results.quantities import check_values
 
 _TOL = 1e-7
 _CORNERS = 4  # parameters up to which every corner of the box is a start
@@ -29,6 +31,7 @@ _SHORTEST = 1e-3
 _AT_BOUND = 1e-9
 
 
+@checked
 def worst_case(
     point: SpecialPoint,
     ranges: Mapping[str, tuple[float, float]],
@@ -221,9 +224,10 @@ class _Box:
     def starts(self, given: Sequence[Mapping[str, float]] | None) -> list[Mapping[str, float]]:
         """Return the parameter values to start from, the point's own first."""
         if given is not None:
-            if not given:
+            if not len(given):
                 raise ParameterError("name at least one start")
             for start in given:
+                check_values(start)
                 _inside(self.ranges, start)
             return list(given)
         own = np.clip(self.unit(self.point.parameters), 0.0, 1.0)

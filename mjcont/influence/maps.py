@@ -11,12 +11,14 @@ from mjcont.curves.collect import Amount
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.influence.critical import check_targets, follow_point
 from mjcont.numerics.equations.problem import Array
+from mjcont.results.arguments import checked
 from mjcont.results.maps import SpecialMap
 from mjcont.results.points import SpecialPoint
 
 _SHORTEST = 1e-3
 
 
+@checked
 def special_map(
     point: SpecialPoint, grid: Mapping[str, Sequence[float] | Array], *, progress: Amount | None = None
 ) -> SpecialMap:

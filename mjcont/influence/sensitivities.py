@@ -16,6 +16,7 @@ from mjcont.numerics.equations.defining import Hopf
 from mjcont.numerics.equations.differences import FOURTH_ORDER, PARAMETER, jacobian_from_rows, jacobian_steps
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import System, equation_scale
+from mjcont.results.arguments import checked
 from mjcont.results.points import Point
 from mjcont.results.quantities import Parameter
 from mjcont.results.sensitivities import Sensitivities, checked_tolerances
@@ -35,6 +36,7 @@ def default_tolerance(value: float, unit: str, bounds: tuple[float, float]) -> f
 
 
 @np.errstate(all="ignore")
+@checked
 def sensitivities(
     point: Point,
     parameters: str | Sequence[str] | None = None,

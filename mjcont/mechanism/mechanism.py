@@ -32,8 +32,9 @@ from mjcont.models.actuators import bush_names
 from mjcont.models.manifold import Manifold
 from mjcont.models.states import checked_state, keyframes, model_name, state_labels, state_scale
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
+from mjcont.results.arguments import checked
 from mjcont.results.model import Model
-from mjcont.results.quantities import Parameter, told_apart
+from mjcont.results.quantities import Parameter, check_name, check_values, finite_pair, told_apart
 from mjcont.results.text import ParameterTable
 
 
@@ -112,18 +113,21 @@ class Mechanism(Shareable, Observed, Held, Model):
         return cls(loaded.model, loaded.text, friction, loaded.notes, geometry)
 
     @classmethod
+    @checked
     def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
         """Take an `MjSpec` (copied), without what needs files that are not there."""
         loaded = loading.load_spec(spec)
         return cls(loaded.model, loaded.text, friction, loaded.notes, Geometry(loaded.spec))
 
     @classmethod
+    @checked
     def from_model(cls, model: mujoco.MjModel, *, friction: str = "frictionless") -> Mechanism:
         """Take a compiled model (copied). Its results cannot carry the MJCF: load them with `problem=`."""
         return cls(model, friction=friction)
 
     # -- parameters ----------------------------------------------------------------------------------------
 
+    @checked
     def declare(
         self,
         name: str,
@@ -150,7 +154,8 @@ class Mechanism(Shareable, Observed, Held, Model):
         with self._cores.lock:
             if name in self.parameters:
                 raise ParameterError(f"parameter '{name}' is declared twice")
-            given, core = Declaration(name, unit, bounds, tuple(paths), function, value), self._core
+            own = None if bounds is None else finite_pair(f"bounds of {name}", bounds)
+            given, core = Declaration(name, unit, own, tuple(paths), function, value), self._core
             parameter = declared_parameter(core.as_loaded(), core.geometry, given)
             self.parameters[name] = parameter
             renamed = told_apart(self.observables, self.parameters)
@@ -163,6 +168,7 @@ class Mechanism(Shareable, Observed, Held, Model):
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`; a path such as `joint:hip.stiffness` is one, too."""
+        check_name(name)
         with self._cores.lock:
             if ":" in name and name not in self.parameters:
                 self.declare(name, name)
@@ -178,7 +184,8 @@ class Mechanism(Shareable, Observed, Held, Model):
         BoundsError, ParameterError
             If MuJoCo would clamp a control there, or the model does not compile.
         """
-        given = given or {}
+        given = {} if given is None else given
+        check_values(given)
         for name, value in given.items():
             self.parameter(name).check(value)
         merged = {name: p.value for name, p in list(self.parameters.items())}
@@ -308,6 +315,7 @@ class Mechanism(Shareable, Observed, Held, Model):
 
     # -- states ----------------------------------------------------------------------------------------------
 
+    @checked
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return a start: the state given, or a keyframe's, or qpos0.
 

@@ -20,6 +20,7 @@ from mjcont.mechanism.declarations import declarations
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.models.quiet import quiet, quiet_data
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.results.arguments import checked
 from mjcont.results.quantities import Observable, Parameter, column_of, own_observable
 
 _SENSOR = mujoco.mjtSensor
@@ -191,6 +192,7 @@ class Observed:
     def _core(self) -> _Reading:
         raise NotImplementedError
 
+    @checked
     def observe(self, name: str, function: Callable[[Any, Any], float], unit: str = "") -> None:
         """Add an observable computed by `function(model, data)` from MuJoCo's model and data.
 

@@ -36,6 +36,7 @@ from mjcont.models.mjcf import Document, Element, elements, exact_text, included
 from mjcont.models.quiet import quiet_data
 from mjcont.models.states import keyframes
 from mjcont.models.topology import Closure, Frame, constraint_closures, gap, plane_normal
+from mjcont.results.arguments import checked
 
 FRAMES = ("world", "parent")
 _JOINT = mujoco.mjtJoint
@@ -53,6 +54,7 @@ class _NotInText(Exception):
     """An element that the compiled model has and the text has not: made by include, replicate or attach."""
 
 
+@checked
 def add_bushes(
     model: str | Path | mujoco.MjSpec,
     joints: Sequence[str] | None = None,
@@ -67,6 +69,7 @@ def add_bushes(
     return _noted(spec, notes)
 
 
+@checked
 def bushed_xml(
     model: str | Path | mujoco.MjSpec,
     joints: Sequence[str] | None = None,
@@ -127,6 +130,7 @@ def bushed_xml(
     return str(edited)
 
 
+@checked
 def set_constraint_stiffness(
     model: str | Path | mujoco.MjSpec,
     stiffness: float = 1e6,

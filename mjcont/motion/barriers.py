@@ -22,6 +22,7 @@ from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local
 from mjcont.numerics.search.creep import creep, rates
+from mjcont.results.arguments import checked
 from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
 from mjcont.results.branch import Branch, sliced
 from mjcont.results.model import check_bounds
@@ -38,6 +39,7 @@ _APART = 0.25
 _PASSES = 2
 
 
+@checked
 def energy_barrier(point: Point, saddles: Saddles | None = None) -> Barrier:
     """Return the energy barrier between a rest and the lowest pass that leads away from it.
 
@@ -61,6 +63,7 @@ def energy_barrier(point: Point, saddles: Saddles | None = None) -> Barrier:
     return _barrier(problem, point, _candidates(problem, point, saddles))
 
 
+@checked
 def barrier_along(
     branch: Branch, saddles: Saddles | None = None, *, search: bool = True, progress: Amount | None = None
 ) -> BarrierCurve:
@@ -110,6 +113,7 @@ def _spaced(branch: Branch, rows: Sequence[int], labels: Sequence[str]) -> list[
     return kept
 
 
+@checked
 def barrier_map(point: Point, grid: Mapping[str, Any], *, search: bool = True) -> BarrierMap:
     """Return the energy barriers of a rest over a grid of two parameters.
 

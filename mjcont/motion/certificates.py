@@ -32,6 +32,7 @@ from mjcont.motion.stepping import INTEGRATORS
 from mjcont.numerics.equations.algebra import singular
 from mjcont.numerics.equations.problem import Array, Pencil
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
+from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch
 from mjcont.results.certificates import CONFIRMED, CONTRADICTED, UNRESOLVED, Certificate, Check
 
@@ -67,6 +68,7 @@ class _Probe:
         return self.step * self.count
 
 
+@checked
 def verify_stability(
     branch: Branch,
     n: int = 20,

@@ -22,6 +22,7 @@ from mjcont.motion.signals import Input, read_inputs
 from mjcont.motion.stepping import INTEGRATORS, Case, Grid, Track, run
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import check_numbers
+from mjcont.results.arguments import checked
 from mjcont.results.histories import History
 from mjcont.results.model import Model, model_of
 from mjcont.results.orbits import Orbit, OrbitPoint, SpecialOrbit, orbit_of
@@ -63,6 +64,7 @@ class _Outcome:
     stalled: str = ""
 
 
+@checked
 def simulate(
     problem: Model | Orbit | OrbitPoint | SpecialOrbit,
     inputs: Mapping[str, Input] | None = None,
@@ -163,6 +165,7 @@ def _driven(orbit: Orbit, name: str) -> Callable[[float], float]:
     return lambda t: float(orbit.inputs(np.array([t]))[name][0])
 
 
+@checked
 def simulate_many(
     mechanism: Mechanism,
     cases: Sequence[Mapping[str, Any]],

@@ -25,16 +25,19 @@ from mjcont.numerics.equations.algebra import eigenvectors, singular, solve
 from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array, Values
-from mjcont.numerics.equations.settings import Settings, make_settings
+from mjcont.numerics.equations.settings import Settings, check_numbers, make_settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
+from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch, sliced
 from mjcont.results.loadpaths import Jump, LoadPath, Segment
+from mjcont.results.model import Model
 from mjcont.results.points import Point, SpecialPoint, show
+from mjcont.results.quantities import check_values, finite
 
 LANDINGS = ("motion", "creep")
 # how far beyond the point of loss the load is taken, relative to the leg: where another rest may be near, farther
@@ -44,8 +47,9 @@ _ASIDE = 1e-3
 _TURNED = -1e-6
 
 
+@checked
 def load_path(
-    source: Any,
+    source: Branch | Model,
     parameter: str | Sequence[Mapping[str, float]],
     path: Sequence[float] | None = None,
     start: Mapping[str, float] | Point | None = None,
@@ -89,10 +93,7 @@ def load_path(
         See their messages.
     """
     problem, given = _sourced(source)
-    if landing not in LANDINGS:
-        raise ParameterError(f"landing must be one of {', '.join(LANDINGS)}; got {landing!r}")
-    if not (max_time > 0 and max_jumps >= 0):
-        raise ParameterError(f"max_time must be positive and max_jumps not negative, got {max_time:g} and {max_jumps}")
+    _check_landing(landing, max_time, max_jumps)
     settings = replace(make_settings(options), chord=math.inf)  # rows are the points that were reached in turn
     vertices = _vertices(problem, parameter, path, start)
     before = problem.evaluations
@@ -105,6 +106,14 @@ def load_path(
     count = problem.evaluations - before + follower.stepped
     done = tuple(follower.segments), tuple(follower.jumps)
     return LoadPath(problem.name, vertices, *done, status, message, count, problem)
+
+
+def _check_landing(landing: str, max_time: float, max_jumps: int) -> None:
+    if landing not in LANDINGS:
+        raise ParameterError(f"landing must be one of {', '.join(LANDINGS)}; got {landing!r}")
+    check_numbers({"max_time": max_time, "max_jumps": max_jumps})
+    if not (max_time > 0 and max_jumps >= 0):
+        raise ParameterError(f"max_time must be positive and max_jumps not negative, got {max_time:g} and {max_jumps}")
 
 
 def _sourced(source: Any) -> tuple[Any, Branch | None]:
@@ -129,7 +138,8 @@ def _vertices(problem: Any, parameter: Any, path: Any, start: Any) -> list[dict[
         raise ParameterError("a path in several parameters is a list of dicts, such as [{'F': 0}, {'F': 3, 'G': 1}]")
     names = list(dict.fromkeys(n for r in rows for n in r))
     known = start.parameters if isinstance(start, Point) else (start or {})
-    current = {n: float(known.get(n, problem.parameter(n).value)) for n in names}
+    check_values(known)
+    current = {n: finite(n, known.get(n, problem.parameter(n).value)) for n in names}
     found: list[dict[str, float]] = []
     for row in rows:
         try:

@@ -21,6 +21,7 @@ from mjcont.oscillation.motions import cycle_of
 from mjcont.oscillation.onward import bounded, entries_at, flow_at, orbit_at, parameter_at
 from mjcont.oscillation.starts import harmonic_orbit, hopf_vector
 from mjcont.oscillation.walks import Entry, Options, Stop, flow_of, read_options, run
+from mjcont.results.arguments import checked
 from mjcont.results.histories import History
 from mjcont.results.model import Model, check_bounds
 from mjcont.results.orbits import CYCLES, RESPONSES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit
@@ -33,6 +34,7 @@ Start = Mapping[str, float] | Point | History
 
 
 @np.errstate(all="ignore")
+@checked
 def continue_cycles(
     origin: SpecialPoint | OrbitPoint | Orbit | Model,
     parameter: str | None = None,
@@ -161,6 +163,7 @@ def _from_motion(
 
 
 @np.errstate(all="ignore")
+@checked
 def find_cycle(
     problem: Model, start: Start | None = None, *, keyframe: str | None = None, state: Any = None, **options: Any
 ) -> Orbit:

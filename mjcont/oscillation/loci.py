@@ -20,6 +20,7 @@ from mjcont.numerics.orbits.loci import held_system, locus_detectors
 from mjcont.numerics.step.arclength import tangent_at
 from mjcont.oscillation.onward import flow_at, orbit_at
 from mjcont.oscillation.walks import Entry, Special, read_options, run
+from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch
 from mjcont.results.orbits import CycleBranch, SpecialOrbit
 from mjcont.results.points import SpecialPoint
@@ -29,6 +30,7 @@ FOLLOWED = ("LPC", "PD", "NS")
 Bounds = tuple[float, float] | Mapping[str, tuple[float, float]] | None
 
 
+@checked
 def continue_special(
     point: SpecialPoint,
     parameter: str,

@@ -11,6 +11,7 @@ from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array, Pencil
 from mjcont.numerics.spectra.spectrum import DIFFERENCE_NOISE, spectrum
 from mjcont.numerics.spectra.vibration import vibration
+from mjcont.results.arguments import checked
 from mjcont.results.linear import Mode, Modes
 from mjcont.results.points import Point
 
@@ -39,6 +40,7 @@ def linearized(point: Point, wrt: Sequence[str] = ()) -> tuple[Pencil, Array]:
 
 
 @np.errstate(all="ignore")
+@checked
 def modes(point: Point) -> Modes:
     """Return frequencies, damping ratios and shapes of the modes at an equilibrium, stable or not.
 

@@ -21,6 +21,7 @@ from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import FREQUENCY, Harmonic, check_forcing, check_inputs, make_forcing
 from mjcont.oscillation.starts import response_path
 from mjcont.oscillation.walks import Entry, Options, Stop, flow_of, read_options, run
+from mjcont.results.arguments import checked
 from mjcont.results.model import Model, check_bounds
 from mjcont.results.orbits import RESPONSES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point, show
@@ -28,6 +29,7 @@ from mjcont.vectorfield import VectorField
 
 
 @np.errstate(all="ignore")
+@checked
 def continue_response(
     problem: Model | OrbitPoint | SpecialOrbit | Orbit,
     parameter: str | None = None,

@@ -14,6 +14,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.spectra.vibration import frequency_response, vibration
 from mjcont.oscillation.forced import Harmonic, check_forcing
 from mjcont.oscillation.modes import check_point, linearized, notes_of
+from mjcont.results.arguments import checked
 from mjcont.results.linear import Transfer
 from mjcont.results.model import Model
 from mjcont.results.points import Point
@@ -23,6 +24,7 @@ _COUNT, _BEYOND = 400, 4.0
 
 
 @np.errstate(all="ignore")
+@checked
 def transfer(
     point: Point,
     input: str,

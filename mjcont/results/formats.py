@@ -12,6 +12,7 @@ import h5py
 from mjcont.errors import MjcontError, ResultFileError, ResultWarning
 from mjcont.outside.sealing import Damaged, opened, refuse_broken_seal
 from mjcont.results import histories, loadpaths, sweeps
+from mjcont.results.arguments import checked
 from mjcont.results.branchfiles import read_branch
 from mjcont.results.files import FORMAT_VERSION, Unfit, read_problem
 from mjcont.results.model import Model
@@ -31,6 +32,7 @@ READERS: Mapping[str, Reader] = {
 }
 
 
+@checked
 def load(path: str | Path, problem: Model | None = None) -> Any:
     """Read a result; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
 

@@ -23,6 +23,7 @@ import numpy as np
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
+from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
 from mjcont.results.files import FORMAT_VERSION, csv_columns, save_hdf5
@@ -163,6 +164,7 @@ class LoadPath:
         last = self.segments[-1]
         return last.branch.row(int(last.rows()[-1]))
 
+    @checked
     def jump(self, label: str) -> Jump:
         """Return the jump with a label such as "LP1"."""
         for j in self.jumps:

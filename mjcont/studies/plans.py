@@ -15,6 +15,7 @@ from typing import Any
 from mjcont.errors import StudyError, did_you_mean, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.loading import shipped_folder, shipped_models
+from mjcont.results.arguments import checked
 from mjcont.results.quantities import FRICTION
 from mjcont.studies.answers import AnswerPlan, read_answer
 from mjcont.studies.keys import Context, Reference, about, check_keys, pair, read, value_table
@@ -125,6 +126,7 @@ class Study:
         return Setup(self.mechanism, plan, friction, {**starts[0], **nominal}, solved, record, branches, None, text)
 
 
+@checked
 def load_study(path: str | Path, *, friction: str | None = None) -> Study:
     """Read a study file and check all of it, also against its model; `friction` comes before the file's own.
 

@@ -12,6 +12,7 @@ from typing import Any
 from mjcont.curves.continuation import continue_equilibria
 from mjcont.errors import MjcontError
 from mjcont.outside.saving import output_folder
+from mjcont.results.arguments import checked
 from mjcont.results.model import units
 from mjcont.results.points import show
 from mjcont.studies.plans import BranchPlan, PlotPlan, Study, Task, check_study, load_study
@@ -24,6 +25,7 @@ __all__ = [
 ]
 
 
+@checked
 def run_study(study: Study, out: str | Path, reporter: Reporter | None = None) -> list[Any]:
     """Compute what a study asks for, storing each result in the folder `out` as soon as it is done; draw its plots.
 

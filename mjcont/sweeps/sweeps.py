@@ -18,6 +18,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.search.spanning import heights, spanning_tree
 from mjcont.outside.saving import output_folder
 from mjcont.outside.sealing import digest
+from mjcont.results.arguments import checked
 from mjcont.results.files import frozen
 from mjcont.results.model import provenance, units
 from mjcont.results.points import Column, SpecialPoint
@@ -38,6 +39,7 @@ from mjcont.sweeps.plan import Setup, Sweepable, SweepPlan, of_points
 Progress = Callable[[int, int, int], None]
 
 
+@checked
 def sweep(
     what: Sweepable | Mapping[str, SpecialPoint],
     vary: Vary | None = None,

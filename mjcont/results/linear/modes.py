@@ -13,6 +13,7 @@ import numpy as np
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
 from mjcont.outside import csvfiles
+from mjcont.results.arguments import checked
 from mjcont.results.histories import History
 from mjcont.results.model import Model, provenance
 from mjcont.results.points import Column, Point
@@ -80,6 +81,7 @@ class Mode:
             return FLUTTERS if self.omega > 0 else GROWS
         return OSCILLATES if self.omega > 0 else DECAYS
 
+    @checked
     def displaced(self, phase: float = 0.0, amplitude: float | None = None) -> Array:
         """Return the state (nq,) at a phase in rad of the motion, the growth or decay left out.
 
@@ -95,6 +97,7 @@ class Mode:
             return float(_SHOWN / max(np.max(size / self.point.model.state_scale), _REST))
         return amplitude / max(float(np.max(size)), _REST)
 
+    @checked
     def history(self, samples: int = 65, amplitude: float | None = None) -> History:
         """Return one cycle as a time history: what a linear motion shows, its growth or decay left out.
 
@@ -144,10 +147,12 @@ class Modes:
         """Iterate over the modes."""
         return iter(self.modes)
 
+    @checked
     def __getitem__(self, index: int) -> Mode:
         """Return a mode, the slowest at index 0."""
         return self.modes[index]
 
+    @checked
     def mode(self, number: int) -> Mode:
         """Return a mode by its number, counted from 1.
 
@@ -189,6 +194,7 @@ class Modes:
                  *(float(v) for z in m.shape for v in (z.real, z.imag))] for m in self.modes]
         return csvfiles.write_table(path, head, rows)
 
+    @checked
     def plot(self, numbers: Sequence[int] | None = None, *, cols: int = 4, plane: str | None = None) -> Any:
         """Draw poses of some modes (default the first six) at both ends of their swing over rest; return the figure.
 

@@ -1,0 +1,164 @@
+"""What verbs are given, held against their own annotations: a wrong kind of thing is named, with what to write instead.
+
+Only kinds are looked at, and the names and numbers in mappings and lists; whether numbers fit is for the verb to say,
+since it knows of what they are.
+"""
+
+from __future__ import annotations
+
+import builtins
+import functools
+import inspect
+import os
+import types
+import typing
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, fields
+from numbers import Integral, Real
+from typing import Any, ParamSpec, TypeVar, Union
+
+import numpy as np
+
+from mjcont.errors import ParameterError
+
+P = ParamSpec("P")
+R = TypeVar("R")
+# what to write, by the kind that is wanted
+_ADVICE = {
+    "a Mechanism or a VectorField": 'such as mc.Mechanism.from_xml("overcentre") or mc.VectorField(f, u0, parameters)',
+    "a Mechanism": 'such as mc.Mechanism.from_xml("overcentre")',
+    "a Branch": "such as mc.continue_equilibria(...) or mc.load(path) return",
+    "a SpecialPoint": 'take one of a branch: branch.point("LP1")',
+    "a Point": 'take one of a branch: branch.point("LP1"), or branch.at(...)[0]',
+    "a Study": "such as mc.load_study(path) returns",
+    "a MjSpec": "Mechanism.from_xml takes paths and text, from_model compiled models",
+    "a MjModel": "Mechanism.from_xml takes paths and text, from_spec an MjSpec",
+    "a dict": 'such as {"F": 20.0}',
+}
+_CALLED = {"Model": "a Mechanism or a VectorField", "Sweepable": "a Study", "Path": "a path"}
+# entries of a list or a mapping that are looked at, and what a message shows of a value
+_LOOKED_AT, _LONGEST = 50, 40
+
+
+def checked(verb: Callable[P, R]) -> Callable[P, R]:
+    """Let a function or a method raise a ParameterError for arguments of a kind that its annotations exclude."""
+    signature = inspect.signature(verb)
+
+    @functools.cache
+    def wanted() -> dict[str, list[_Kind]]:
+        known = _Known({**vars(builtins), **verb.__globals__})
+        return {name: _kinds(hint) for name, hint in typing.get_type_hints(verb, localns=known).items()}
+
+    @functools.wraps(verb)
+    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        for name, value in signature.bind(*args, **kwargs).arguments.items():
+            kind, named = signature.parameters[name].kind, [(name, value)]
+            if kind is inspect.Parameter.VAR_POSITIONAL:
+                named = [(name, each) for each in value]
+            elif kind is inspect.Parameter.VAR_KEYWORD:
+                named = list(value.items())
+            for own, each in named:
+                _refuse_other(verb.__qualname__.removesuffix(".__init__"), own, each, wanted().get(name, [_ANYTHING]))
+        return verb(*args, **kwargs)
+
+    return call
+
+
+def check_fields(settings: Any) -> None:
+    """Raise a ParameterError for fields of a dataclass of a kind that its annotations exclude."""
+    hints = typing.get_type_hints(type(settings))
+    for f in fields(settings):
+        _refuse_other(type(settings).__name__, f.name, getattr(settings, f.name), _kinds(hints[f.name]))
+
+
+class _Known(dict[str, Any]):
+    """Names that annotations use; those that only type checkers know stand for anything."""
+
+    def __missing__(self, name: str) -> Any:
+        return Any
+
+
+@dataclass(frozen=True, slots=True)
+class _Kind:
+    """A kind of value: what it is called, and whether a value is of it."""
+
+    called: str
+    holds: Callable[[Any], bool]
+
+
+def _refuse_other(verb: str, name: str, value: Any, kinds: Sequence[_Kind]) -> None:
+    if any(k.holds(value) for k in kinds):
+        return
+    called = list(dict.fromkeys(k.called for k in kinds if k.called != "None")) or ["None"]
+    advice = next((f": {_ADVICE[c]}" for c in called if c in _ADVICE), "")
+    raise ParameterError(f"{verb}: {name} must be {' or '.join(called)}, got {_shown(value)}{advice}")
+
+
+def _shown(value: Any) -> str:
+    """Return a value as a message shows it: its kind, and itself where that is short."""
+    if value is None or isinstance(value, type):
+        return "None" if value is None else f"the class {value.__name__}"
+    text = " ".join(repr(value).split())
+    plain = isinstance(value, str | bytes | int | float | complex | list | tuple | dict) and len(text) <= _LONGEST
+    return f"the {type(value).__name__}" + (f" {text}" if plain else "")
+
+
+def _kinds(hint: Any) -> list[_Kind]:
+    """Return the kinds of values that an annotation allows."""
+    origin, inner = typing.get_origin(hint), typing.get_args(hint)
+    if origin in (Union, types.UnionType):
+        return [kind for h in inner for kind in _kinds(h)]
+    if hint in _PLAIN:
+        return [_PLAIN[hint]]
+    if origin is Callable:
+        return [_Kind("a function", callable)]
+    if origin is np.ndarray:
+        return [_Kind("an array of numbers", _numbers)]
+    if isinstance(origin, type) and issubclass(origin, Mapping):
+        return [_Kind("a dict", functools.partial(_mapping, keys=_kinds(inner[0])))]
+    if origin in (Collection, Sequence, list):
+        return [_Kind("a list", functools.partial(_listed, entries=_kinds(inner[0]) if inner else [_ANYTHING]))]
+    opaque = getattr(hint, "_is_protocol", False) and not getattr(hint, "_is_runtime_protocol", False)
+    if origin is not None or opaque or not isinstance(hint, type) or hint in (Any, object, tuple, np.ndarray):
+        return [_ANYTHING]
+    if issubclass(hint, os.PathLike):
+        return [_Kind("a path", lambda value: isinstance(value, os.PathLike))]
+    article = "an" if hint.__name__[0] in "AEIO" else "a"
+    return [_Kind(_CALLED.get(hint.__name__, f"{article} {hint.__name__}"), lambda value: isinstance(value, hint))]
+
+
+def _number(value: Any) -> bool:
+    single = isinstance(value, np.ndarray) and value.ndim == 0 and value.dtype.kind in "iuf"
+    return single or (isinstance(value, Real) and not isinstance(value, bool))
+
+
+def _numbers(value: Any) -> bool:
+    try:
+        return np.asarray(value, dtype=float).ndim > 0
+    except (TypeError, ValueError):
+        return False
+
+
+def _fit(values: Collection[Any], kinds: Sequence[_Kind]) -> bool:
+    return all(any(k.holds(v) for k in kinds) for v in list(values)[:_LOOKED_AT])
+
+
+def _mapping(value: Any, keys: Sequence[_Kind]) -> bool:
+    return isinstance(value, Mapping) and _fit(value, keys)
+
+
+def _listed(value: Any, entries: Sequence[_Kind]) -> bool:
+    if isinstance(value, str | bytes | Mapping) or (isinstance(value, np.ndarray) and value.ndim == 0):
+        return False
+    return isinstance(value, Collection | np.ndarray) and _fit(value, entries)
+
+
+_ANYTHING = _Kind("anything", lambda value: True)
+_PLAIN = {
+    None: _Kind("None", lambda value: value is None),
+    type(None): _Kind("None", lambda value: value is None),
+    str: _Kind("a string", lambda value: isinstance(value, str)),
+    bool: _Kind("True or False", lambda value: isinstance(value, bool | np.bool_)),
+    int: _Kind("a whole number", lambda value: isinstance(value, Integral) and not isinstance(value, bool)),
+    float: _Kind("a number", _number),
+}
