@@ -1,11 +1,13 @@
-"""Commands that help with mjcont itself: `docs` and `completion`."""
+"""Commands that help with mjcont itself: `docs`, `schema` and `completion`."""
 
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from mjcont.commands.common import OK, Command
 from mjcont.commands.completion import SHELLS, script
+from mjcont.commands.readers import place
 from mjcont.outside.terminal import say
 
 
@@ -14,6 +16,10 @@ def register(command: Command) -> None:
     p = command("docs", "list what there is to read in this installation, or print a page", docs)
     p.add_argument("page", metavar="PAGE", nargs="?", help="such as studies")
     p.add_argument("--path", action="store_true", help="print where the pages are, or the page is")
+
+    p = command("schema", "print the JSON Schema of study files, with which editors complete and check them", schema)
+    p.add_argument("-o", "--out", type=place, metavar="FILE.json", help="write it there instead")
+    p.add_argument("--path", action="store_true", help="print where it is in this installation")
 
     p = command("completion", "print what lets a shell complete mjcont's commands", completion)
     p.add_argument("shell", metavar="SHELL", choices=SHELLS, help=", ".join(SHELLS))
@@ -39,6 +45,19 @@ def docs(args: argparse.Namespace) -> int:
 
 def _title(text: str) -> str:
     return text.partition("\n")[0].lstrip("# ")
+
+
+def schema(args: argparse.Namespace) -> int:
+    """Print the JSON Schema of study files."""
+    from mjcont.outside.saving import write_file
+    from mjcont.studies.jsonschema import SCHEMA, text
+
+    if args.out:
+        say(f"written: {write_file(args.out, text())}")
+        say(f"begin a study with the line: #:schema ./{Path(args.out).name}")
+    else:
+        say(str(SCHEMA) if args.path else text().rstrip())
+    return OK
 
 
 def completion(args: argparse.Namespace) -> int:

@@ -17,12 +17,20 @@ from mjcont.motion.certificates import verify_stability
 from mjcont.results.certificates import Certificate
 from mjcont.results.maps import WorstCase
 from mjcont.results.points import SpecialPoint, show
+from mjcont.studies import forms as f
 from mjcont.studies import keys as k
+from mjcont.studies import values as v
 from mjcont.studies.references import refer
 from mjcont.studies.schema import Table
 
 _CURVES = ("branch", "locus")
-_RESERVED = ("worst", "smallest", "simulations")
+_OWN: Mapping[str, f.Form] = {
+    "worst": {**f.RANGES, "description": "Parameters with [low, high]: the box of the worst case."},
+    "smallest": {**f.FLAG, "description": "Whether the worst is the smallest value, not the largest."},
+    "simulations": {**f.whole(0), "description": "How many points of a curve are simulated beside; 0 for none."},
+}
+ANSWER: f.Form = {"type": "object", "description": "What points mean, such as locks = \"above:LP1\".",
+                  "properties": _OWN, "additionalProperties": f.POINT}
 T = TypeVar("T")
 
 
@@ -44,11 +52,11 @@ def read_answer(root: Table, context: k.Context) -> AnswerPlan | None:
     with context.noting():
         table = root.table("answer")
         for key in table.data:
-            if key not in _RESERVED:
+            if key not in _OWN:
                 with context.noting():
                     points[key] = refer(table, key, table.text(key), _CURVES, None, context)
-        worst = k.ranges(table, "worst", context) if "worst" in table.data else {}
-        count = k.whole(0)(table, "simulations", context) if "simulations" in table.data else 6
+        worst = v.ranges(table, "worst", context) if "worst" in table.data else {}
+        count = v.whole(0)(table, "simulations", context) if "simulations" in table.data else 6
         plan = AnswerPlan(points, worst, table.flag("smallest"), count)
         if not points:
             raise table.error("", 'expected at least one point with its meaning, such as locks = "equilibria:LP1"')

@@ -17,20 +17,32 @@ from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.loading import shipped_folder, shipped_models
 from mjcont.results.arguments import checked
 from mjcont.results.quantities import FRICTION
-from mjcont.studies.answers import AnswerPlan, read_answer
-from mjcont.studies.keys import Context, Reference, about, check_keys, pair, read, value_table
+from mjcont.studies import forms as f
+from mjcont.studies.answers import ANSWER, AnswerPlan, read_answer
+from mjcont.studies.forms import PLOT_SUFFIXES
+from mjcont.studies.keys import Context, Reference, about, check_keys, read
+from mjcont.studies.plots import PLOT
 from mjcont.studies.schema import Table
-from mjcont.studies.sweeps import read_sweep
-from mjcont.studies.tables import KINDS, PLOT, PLOT_SUFFIXES, known
+from mjcont.studies.sweeps import SWEEP, read_sweep
+from mjcont.studies.tables import KINDS, known
+from mjcont.studies.values import pair, value_table
 from mjcont.sweeps.plan import Setup, SweepPlan
 
 __all__ = ["PLOT_SUFFIXES", "BranchPlan", "PlotPlan", "Study", "Task", "check_study", "load_study"]
 
 STUDY_VERSION = 1
-TOP = (
-    "version", "model", "friction", "parameters", "declare", *(kind.table for kind in KINDS.values()), "plot", "sweep",
-    "answer",
-)
+DECLARE = f.table({"targets": {**f.TEXTS, "minItems": 1}, "unit": f.TEXT, "bounds": f.PAIR}, "targets",
+                  text="A parameter that the model does not declare itself.")
+TOP: Mapping[str, f.Form] = {
+    "version": {"const": STUDY_VERSION, "description": "Version of this schema."},
+    "model": {**f.TEXT, "description": "An MJCF file, relative to the study, or a model that ships with mjcont."},
+    "friction": {**f.choice(*FRICTION), "description": "Leave friction out of equilibria, or refuse models with it."},
+    "parameters": {**f.VALUES, "description": "Values for every result, by the parameters' names."},
+    "declare": {"type": "object", "additionalProperties": DECLARE},
+    **{kind.table: f.tables(kind.form()) for kind in (*KINDS.values(), PLOT)},
+    "sweep": SWEEP,
+    "answer": ANSWER,
+}
 _NAME = re.compile(r"[A-Za-z_]\w*")
 
 
@@ -301,8 +313,8 @@ def _load_model(root: Table, folder: Path, friction: str | None) -> Mechanism:
 
 def _declare(declare: Table, name: str, mechanism: Mechanism) -> None:
     table = declare.table(name)
-    table.only("targets", "unit", "bounds")
-    table.require("targets")
+    table.only(*DECLARE["properties"])
+    table.require(*DECLARE["required"])
     known = mechanism.parameters.get(name)
     if not _NAME.fullmatch(name):
         raise declare.error(name, "a parameter's name consists of letters, digits and '_'")
