@@ -17,6 +17,7 @@ from typing import Any as _Any
 
 from mjcont.errors import (
     BoundsError,
+    BranchWarning,
     FunctionError,
     MjcontError,
     ModelError,
@@ -132,6 +133,7 @@ __all__ = [
     "BarrierMap",
     "BoundsError",
     "Branch",
+    "BranchWarning",
     "Certificate",
     "Column",
     "ConstraintStiffness",

@@ -11,6 +11,7 @@ from typing import Any, Self
 import numpy as np
 from scipy import sparse
 
+from mjcont.arguments import checked
 from mjcont.errors import FunctionError, MjcontError, ParameterError, leaves_domain, unknown_name
 from mjcont.numerics.equations.clock import check
 from mjcont.numerics.equations.differences import (
@@ -21,7 +22,6 @@ from mjcont.numerics.equations.differences import (
     kept_within,
 )
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
-from mjcont.results.arguments import checked
 from mjcont.results.model import Model
 from mjcont.results.quantities import (
     Observable,

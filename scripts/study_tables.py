@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from mjcont.commands.jsonschema import SCHEMA
+from mjcont.commands.jsonschema import text as schema_text
 from mjcont.outside.saving import write_file
-from mjcont.studies.jsonschema import SCHEMA
-from mjcont.studies.jsonschema import text as schema_text
 from mjcont.studies.keys import Key, Kind
 from mjcont.studies.plots import PLOT
 from mjcont.studies.tables import KINDS

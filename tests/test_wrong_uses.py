@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import mjcont as mc
-from mjcont.results.arguments import checked
+from mjcont.arguments import checked
 
 
 class Odd:
@@ -173,5 +173,15 @@ def test_a_checked_function_keeps_its_signature_and_takes_numbers_of_numpy() -> 
     assert verb(np.int64(3), np.float32(2.0)) == 6.0
     assert verb.__doc__ == "Say so."
     assert list(inspect.signature(verb).parameters) == ["count", "size", "names"]
-    with pytest.raises(mc.ParameterError, match="names must be a list, got the list"):
+    with pytest.raises(mc.ParameterError, match="names must be a list of strings, got the list"):
         verb(1, 1.0, [1])
+
+
+def test_a_curve_from_a_branch_point_of_its_own_says_what_follows_the_others() -> None:
+    pitchfork = mc.VectorField(lambda u, p: [p["a"] * u[0] - u[0] ** 3], [0.0], {"a": -1.0})
+    point = mc.continue_equilibria(pitchfork, "a", (-1.0, 1.0)).point("BP1")
+    with pytest.warns(mc.BranchWarning, match=r"several branches meet in BP1, .* mc.switch_branches\(point\)"):
+        mc.continue_equilibria(pitchfork, "a", (-1.0, 1.0), point)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert len(mc.bifurcation_diagram(pitchfork, "a", (-1.0, 1.0), point)) == 2

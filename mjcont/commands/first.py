@@ -96,8 +96,7 @@ def answer(args: argparse.Namespace) -> int:
     with warnings_as_lines(), gauge() as shown:
         study = load_study(args.study, friction=args.friction)
         if study.answer is None:
-            raise MjcontError(f"study '{args.study}': it has no table [answer]: `mjcont docs studies` tells what goes "
-                              "in there")
+            raise MjcontError(f"study '{args.study}': it has no table [answer]: see `mjcont docs studies`")
         found = answers(study, run_study(study, args.out, Told(shown)), shown.begin)
     if args.json:
         say(as_json(of_answers(study, found)))

@@ -49,8 +49,8 @@ def _title(text: str) -> str:
 
 def schema(args: argparse.Namespace) -> int:
     """Print the JSON Schema of study files."""
+    from mjcont.commands.jsonschema import SCHEMA, text
     from mjcont.outside.saving import write_file
-    from mjcont.studies.jsonschema import SCHEMA, text
 
     if args.out:
         say(f"written: {write_file(args.out, text())}")

@@ -16,7 +16,7 @@ from mjcont.outside.terminal import say
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
     """Add the command's arguments to its parser."""
-    p.add_argument("study", metavar="STUDY.toml", help="a study file with a table [sweep] (docs/sweeps.md)")
+    p.add_argument("study", metavar="STUDY.toml", help="a study file with a table [sweep] (mjcont docs sweeps)")
     p.add_argument("-o", "--out", type=place, metavar="DIR", default="sweep",
                    help="folder for the journal and the tables; a sweep that stopped goes on there (default: sweep)")
     p.add_argument("--limit", metavar="N", type=positive, help="the first N cases only")

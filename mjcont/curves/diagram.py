@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress, build_branch, completed, ordered_rows, reporter
 from mjcont.curves.continuation import continue_equilibria, find_equilibrium
 from mjcont.curves.walkers import Zeros, equilibrium_walker
-from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.errors import BoundsError, BranchWarning, MjcontError, ParameterError
 from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import correct
@@ -26,12 +28,10 @@ from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.step.hermite import lagrange
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace, time_up, trace
-from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch, Diagram
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint
 from mjcont.results.search import same_spectrum
-from mjcont.results.text import check_kind
 
 _OFFSET = 1e-2
 # first steps along a branch from a point on it, one way and the other
@@ -69,7 +69,6 @@ def switch_branches(
     MjcontError
         If the point is no branch point of equilibria, or was loaded without its problem.
     """
-    check_kind("the branch point", point, SpecialPoint, 'take one of a branch: branch.point("BP1")')
     if point.kind != "BP" or point.curve != "equilibria":
         raise MjcontError(f"{point.label or 'this point'} is no branch point of equilibria: only those have branches")
     settings = make_settings(options)
@@ -233,7 +232,9 @@ def _reach(
         point = start if located else find_equilibrium(problem, start, keyframe=keyframe)
         if not any(covers(b, point) for b in branches):
             given = {"zeros": zeros, "progress": progress, **options}
-            branches.append(continue_equilibria(problem, parameter, bounds, point, **given))
+            with warnings.catch_warnings():  # the other branches through it come next
+                warnings.simplefilter("ignore", BranchWarning)
+                branches.append(continue_equilibria(problem, parameter, bounds, point, **given))
             problem = branches[-1].model if problem.follows_scale else problem
     queue = [p for b in branches for p in b.of_kind("BP")]
     done: list[SpecialPoint] = []

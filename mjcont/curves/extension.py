@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress, build_branch, completed, ordered_rows, reporter
 from mjcont.curves.loci import default_ends, locus_detectors
 from mjcont.curves.walkers import equilibrium_walker
@@ -28,7 +29,6 @@ from mjcont.numerics.spectra.spectrum import spectrum
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Trace, Walker, trace
-from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch
 from mjcont.results.model import check_bounds, model_of
 from mjcont.results.orbits import CycleBranch

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Found, Progress, make_point
 from mjcont.curves.continuation import hold_rigid_modes
 from mjcont.errors import BoundsError, ParameterError, unknown_name
@@ -26,7 +27,6 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.search.coordinates import Coordinates, layout, with_turns
 from mjcont.numerics.search.deflation import Deflation, newton
 from mjcont.numerics.search.multistart import Many, Runs, levenberg_marquardt, spectral_step
-from mjcont.results.arguments import checked
 from mjcont.results.model import Model
 from mjcont.results.points import Point
 from mjcont.results.quantities import column_of, meant

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.loci import continue_special
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.arguments import checked
 from mjcont.results.model import Model
 from mjcont.results.points import SpecialPoint
 from mjcont.results.stiffness import StiffnessStudy

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.drawing import plotting
 from mjcont.drawing.axes import axis_label
 from mjcont.drawing.frames import Frame, Result, Track, default_columns, frames_of, track_of
@@ -24,7 +25,6 @@ from mjcont.drawing.sketch import padded, render
 from mjcont.drawing.viewer import Stand
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch
 from mjcont.results.histories import History
 from mjcont.results.linear import Mode

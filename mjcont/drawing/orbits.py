@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import COLORS, LINE_STYLES, new_figure
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.arguments import checked
 from mjcont.results.orbits import CycleBranch, Orbit, orbit_of
 
 if TYPE_CHECKING:

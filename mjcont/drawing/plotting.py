@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.drawing.axes import show_axis
 from mjcont.drawing.loadpaths import draw_path
 from mjcont.drawing.notes import LABEL, place_labels, xy
@@ -22,7 +23,6 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS, name_of
 from mjcont.outside.escapes import for_picture
 from mjcont.outside.saving import write_file
-from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch
 from mjcont.results.loadpaths import LoadPath
 from mjcont.results.points import SpecialPoint, show

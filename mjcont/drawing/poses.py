@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.drawing import notes, plotting
 from mjcont.drawing.labels import Labels, write_labels
 from mjcont.drawing.picture import Picture, Pose, picture
@@ -14,7 +15,6 @@ from mjcont.drawing.sketch import padded, render
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch
 from mjcont.results.points import Point
 

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import make_point
 from mjcont.curves.continuation import hold_rigid_modes
 from mjcont.curves.loci import CODIMENSION, followed_as
@@ -28,7 +29,6 @@ from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points import normalform
 from mjcont.numerics.points.events import ScalarZero
 from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of, name_of
-from mjcont.results.arguments import checked
 from mjcont.results.maps import FollowedPoint
 from mjcont.results.orbits import OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point, SpecialPoint, show

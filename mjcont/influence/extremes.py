@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Amount
 from mjcont.errors import BoundsError, ParameterError, unknown_name
 from mjcont.influence.critical import check_targets, follow_point
@@ -18,7 +19,6 @@ from mjcont.influence.sensitivities import sensitivities
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Why
 from mjcont.numerics.search.box import Minimum, minimise
-from mjcont.results.arguments import checked
 from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
 from mjcont.results.model import units as unit_of
 from mjcont.results.points import SpecialPoint, show

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Amount
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.influence.critical import check_targets, follow_point
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.arguments import checked
 from mjcont.results.maps import SpecialMap
 from mjcont.results.points import SpecialPoint
 

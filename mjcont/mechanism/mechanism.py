@@ -17,7 +17,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from mjcont.errors import ParameterError, unknown_name
+from mjcont.arguments import checked
+from mjcont.errors import BoundsError, ParameterError, unknown_name
 from mjcont.mechanism.core import ENGINE, copy_model, evaluation_copy, is_constrained, owned_copy
 from mjcont.mechanism.declarations import Declaration
 from mjcont.mechanism.geometry import Geometry, refuse_overlap
@@ -32,9 +33,8 @@ from mjcont.models.actuators import bush_names
 from mjcont.models.manifold import Manifold
 from mjcont.models.states import checked_state, keyframes, model_name, state_labels, state_scale
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
-from mjcont.results.arguments import checked
 from mjcont.results.model import Model
-from mjcont.results.quantities import Parameter, check_name, check_values, finite_pair, told_apart
+from mjcont.results.quantities import Parameter, check_name, check_values, told_apart
 from mjcont.results.text import ParameterTable
 
 
@@ -154,8 +154,9 @@ class Mechanism(Shareable, Observed, Held, Model):
         with self._cores.lock:
             if name in self.parameters:
                 raise ParameterError(f"parameter '{name}' is declared twice")
-            own = None if bounds is None else finite_pair(f"bounds of {name}", bounds)
-            given, core = Declaration(name, unit, own, tuple(paths), function, value), self._core
+            if bounds is not None and np.shape(bounds) != (2,):
+                raise BoundsError(f"bounds of {name} must be two numbers (low, high), got {bounds!r}")
+            given, core = Declaration(name, unit, bounds, tuple(paths), function, value), self._core
             parameter = declared_parameter(core.as_loaded(), core.geometry, given)
             self.parameters[name] = parameter
             renamed = told_apart(self.observables, self.parameters)

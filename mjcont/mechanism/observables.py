@@ -14,13 +14,13 @@ from typing import Any, Protocol
 import mujoco
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import unknown_name
 from mjcont.mechanism.batches import Rows
 from mjcont.mechanism.declarations import declarations
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.models.quiet import quiet, quiet_data
 from mjcont.numerics.equations.problem import Array, Values
-from mjcont.results.arguments import checked
 from mjcont.results.quantities import Observable, Parameter, column_of, own_observable
 
 _SENSOR = mujoco.mjtSensor

@@ -17,6 +17,7 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import ModelError, ModelWarning, ParameterError, unknown_name
 from mjcont.models import assets, loading
 from mjcont.models.bushsections import (
@@ -36,7 +37,6 @@ from mjcont.models.mjcf import Document, Element, elements, exact_text, included
 from mjcont.models.quiet import quiet_data
 from mjcont.models.states import keyframes
 from mjcont.models.topology import Closure, Frame, constraint_closures, gap, plane_normal
-from mjcont.results.arguments import checked
 
 FRAMES = ("world", "parent")
 _JOINT = mujoco.mjtJoint

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Amount
 from mjcont.curves.continuation import continue_equilibria, hold_rigid_modes
 from mjcont.curves.search import find_equilibria
@@ -22,7 +23,6 @@ from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local
 from mjcont.numerics.search.creep import creep, rates
-from mjcont.results.arguments import checked
 from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
 from mjcont.results.branch import Branch, sliced
 from mjcont.results.model import check_bounds

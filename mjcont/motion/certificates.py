@@ -21,6 +21,7 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
+from mjcont.arguments import checked
 from mjcont.curves.continuation import hold_rigid_modes
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.mechanism.batches import load_side
@@ -32,7 +33,6 @@ from mjcont.motion.stepping import INTEGRATORS
 from mjcont.numerics.equations.algebra import singular
 from mjcont.numerics.equations.problem import Array, Pencil
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
-from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch
 from mjcont.results.certificates import CONFIRMED, CONTRADICTED, UNRESOLVED, Certificate, Check
 

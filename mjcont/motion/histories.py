@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.continuation import start_from
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
@@ -22,7 +23,6 @@ from mjcont.motion.signals import Input, read_inputs
 from mjcont.motion.stepping import INTEGRATORS, Case, Grid, Track, run
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import check_numbers
-from mjcont.results.arguments import checked
 from mjcont.results.histories import History
 from mjcont.results.model import Model, model_of
 from mjcont.results.orbits import Orbit, OrbitPoint, SpecialOrbit, orbit_of

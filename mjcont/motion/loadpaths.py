@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Amount, Progress, collect, run_directions
 from mjcont.curves.continuation import find_equilibrium, hold_rigid_modes
 from mjcont.curves.walkers import equilibrium_detectors
@@ -32,7 +33,6 @@ from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
-from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch, sliced
 from mjcont.results.loadpaths import Jump, LoadPath, Segment
 from mjcont.results.model import Model
@@ -295,6 +295,8 @@ class _Follower:
         message = landing.message
         if landing.point is None and lost.kind == "HB":
             message += ": the rest gives way to an oscillation"
+        elif landing.status == "no rest" and self.inertia:
+            message += '; landing="creep" lands without inertia, and max_time= waits longer'
         if lost.kind == "BP":
             message += "; which way it goes is decided by imperfections, one was chosen"
         return Jump(label, lost.kind, point, landing.point, index, energy, note, landing.time, landing.steps,

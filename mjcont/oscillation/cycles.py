@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction, start_from
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
@@ -21,7 +22,6 @@ from mjcont.oscillation.motions import cycle_of
 from mjcont.oscillation.onward import bounded, entries_at, flow_at, orbit_at, parameter_at
 from mjcont.oscillation.starts import harmonic_orbit, hopf_vector
 from mjcont.oscillation.walks import Entry, Options, Stop, flow_of, read_options, run
-from mjcont.results.arguments import checked
 from mjcont.results.histories import History
 from mjcont.results.model import Model, check_bounds
 from mjcont.results.orbits import CYCLES, RESPONSES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit

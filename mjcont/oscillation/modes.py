@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import sparse
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array, Pencil
 from mjcont.numerics.spectra.spectrum import DIFFERENCE_NOISE, spectrum
 from mjcont.numerics.spectra.vibration import vibration
-from mjcont.results.arguments import checked
 from mjcont.results.linear import Mode, Modes
 from mjcont.results.points import Point
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction, start_from
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
@@ -21,7 +22,6 @@ from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import FREQUENCY, Harmonic, check_forcing, check_inputs, make_forcing
 from mjcont.oscillation.starts import response_path
 from mjcont.oscillation.walks import Entry, Options, Stop, flow_of, read_options, run
-from mjcont.results.arguments import checked
 from mjcont.results.model import Model, check_bounds
 from mjcont.results.orbits import RESPONSES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point, show

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.mechanism.moving import has_activations
@@ -14,7 +15,6 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.spectra.vibration import frequency_response, vibration
 from mjcont.oscillation.forced import Harmonic, check_forcing
 from mjcont.oscillation.modes import check_point, linearized, notes_of
-from mjcont.results.arguments import checked
 from mjcont.results.linear import Transfer
 from mjcont.results.model import Model
 from mjcont.results.points import Point

@@ -11,9 +11,9 @@ from typing import Any, overload
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, NameLookupError, unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.arguments import checked
 from mjcont.results.certificates import Certificate
 from mjcont.results.model import Model, model_of
 from mjcont.results.points import Column, Mark, Point, SpecialPoint, show
@@ -201,7 +201,7 @@ class Branch(Shown):
         MjcontError
             If not exactly one column is given, or the branch was loaded without its problem.
         """
-        from mjcont.curves.continuation import points_at
+        from mjcont.curves.at import points_at
 
         if len(target) != 1:
             raise MjcontError("Branch.at takes exactly one column and value, such as at(F=20.0)")

@@ -9,10 +9,10 @@ from typing import Any
 
 import h5py
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, ResultFileError, ResultWarning
 from mjcont.outside.sealing import Damaged, opened, refuse_broken_seal
 from mjcont.results import histories, loadpaths, sweeps
-from mjcont.results.arguments import checked
 from mjcont.results.branchfiles import read_branch
 from mjcont.results.files import FORMAT_VERSION, Unfit, read_problem
 from mjcont.results.model import Model

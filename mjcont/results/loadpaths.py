@@ -20,10 +20,10 @@ from typing import Any
 import h5py
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
-from mjcont.results.arguments import checked
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
 from mjcont.results.files import FORMAT_VERSION, csv_columns, save_hdf5

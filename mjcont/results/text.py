@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 from html import escape
-from typing import Any
 
-from mjcont.errors import ParameterError
 from mjcont.results.quantities import Parameter
 
 _LONGEST = 160
@@ -62,9 +60,3 @@ class Shown:
         for each in ("columns", "fixed", "parameters", "observables"):
             found += [n for n in getattr(self, each, ()) if n not in found]
         return found
-
-
-def check_kind(what: str, given: Any, kind: type, advice: str) -> None:
-    """Raise a ParameterError unless what a verb is given is of a kind; `advice` says what to write."""
-    if not isinstance(given, kind):
-        raise ParameterError(f"{what} must be a {kind.__name__}, got {type(given).__name__}: {advice}")

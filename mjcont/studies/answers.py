@@ -16,6 +16,7 @@ from mjcont.influence.sensitivities import sensitivities
 from mjcont.motion.certificates import verify_stability
 from mjcont.results.certificates import Certificate
 from mjcont.results.maps import WorstCase
+from mjcont.results.model import units
 from mjcont.results.points import SpecialPoint, show
 from mjcont.studies import forms as f
 from mjcont.studies import keys as k
@@ -112,15 +113,15 @@ class Answer:
         ])
 
     def _told(self, found: WorstCase | Influence | Certificate) -> str:
-        name, units = self.quantity, self.point.units
-        unit = units.get(name, "")
+        name, unit_of = self.quantity, units(self.point.model)
+        unit = unit_of.get(name, "")
         if isinstance(found, Influence):
             return (f"{found.name}: +-{show(found.tolerance, found.unit, 3)} moves {name} by "
                     f"+-{show(found.change, unit, 3)}")
         if isinstance(found, WorstCase):
-            where = ", ".join(f"{n} = {show(v, units.get(n, ''), 4)}" for n, v in found.parameters.items())
+            where = ", ".join(f"{n} = {show(v, unit_of.get(n, ''), 4)}" for n, v in found.parameters.items())
             return f"{name} = {show(found.value, unit, 5)} at {where}; {found.message}"
-        return found.headline
+        return found.headline.removeprefix("stability by simulation: ")
 
 
 def answers(study: Any, results: Sequence[Any], say: Callable[[str], None] = lambda what: None) -> list[Answer]:
@@ -137,6 +138,7 @@ def answers(study: Any, results: Sequence[Any], say: Callable[[str], None] = lam
         if hasattr(result, "branches"):
             done |= {f"{plan.name}_{i}": b for i, b in enumerate(result, 1)}
     found = []
+    checked: dict[str, Certificate | str | None] = {}
     for meaning, reference in study.answer.points.items():
         curve = done.get(reference.result)
         if curve is None:
@@ -145,12 +147,15 @@ def answers(study: Any, results: Sequence[Any], say: Callable[[str], None] = lam
             point = curve.point(reference.label)
         except MjcontError as error:
             raise type(error)(f"study '{study.file}': answer.{meaning}: {error}") from error
-        found.append(_answer(meaning, str(reference), study.answer, curve, point, say))
+        if reference.result not in checked:
+            checked[reference.result] = _simulated(reference.result, curve, study.answer.simulations, say)
+        found.append(_answer(meaning, str(reference), study.answer, curve, point, checked[reference.result], say))
     return found
 
 
 def _answer(
-    meaning: str, reference: str, plan: AnswerPlan, curve: Any, point: SpecialPoint, say: Callable[[str], None]
+    meaning: str, reference: str, plan: AnswerPlan, curve: Any, point: SpecialPoint,
+    simulation: Certificate | str | None, say: Callable[[str], None],
 ) -> Answer:
     """Return how sure a point is."""
     quantity = next(iter(point.free))
@@ -161,12 +166,16 @@ def _answer(
         worst = _tried(lambda: worst_case(point, ranges, quantity=quantity, maximise=not plan.smallest))
     say(f"what {reference} depends on")
     influence = _tried(lambda: _influence(point, quantity))
-    simulation: Certificate | str | None = None
-    if plan.simulations and curve.rated:
-        say(f"simulations beside {reference.partition(':')[0]}")
-        simulation = _tried(lambda: verify_stability(curve, n=plan.simulations).certificate)
     return Answer(meaning, reference, point, quantity, float(curve[quantity][curve.start_index]), worst, influence,
                   simulation)
+
+
+def _simulated(name: str, curve: Any, count: int, say: Callable[[str], None]) -> Certificate | str | None:
+    """Return what simulations beside a curve say; None where none are asked for, or its rows have no stability."""
+    if not (count and curve.rated):
+        return None
+    say(f"simulations beside {name}")
+    return _tried(lambda: verify_stability(curve, n=count).certificate)
 
 
 def _tried(question: Callable[[], T]) -> T | str:

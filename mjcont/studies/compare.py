@@ -111,16 +111,21 @@ def compare(old: str | Path, new: str | Path, folder: Path, reporter: Reporter |
             sides.append({"equilibria": _asked(looks[0], look.mechanism, reporter.point)})
             reporter.stopped()
     before, after = (s for s in sides if isinstance(s, Mapping))
-    shared = [n for n in before if n in after and before[n].kind == after[n].kind]
-    if not shared and len(before) == len(after) == 1:
+    if len(before) == len(after) == 1:  # what a file is called makes no difference
         after = dict(zip(before, after.values(), strict=True))
-        shared = list(before)
+    shared = [n for n in before if n in after and _alike(before[n], after[n])]
     curves = tuple(Compared(n, before[n], after[n], matched(before[n], after[n])) for n in shared)
-    missing = [f"{n}: only in {word}" for own, word in ((before, old), (after, new)) for n in own if n not in shared]
+    missing = [f"{n}, {own[n].kind} in {', '.join(own[n].free)}: only in {word}"
+               for own, word in ((before, old), (after, new)) for n in own if n not in shared]
     models = [next((b.problem for b in s.values() if b.problem is not None), None) for s in (before, after)]
     texts = [str(m.mjcf or "") if m is not None else "" for m in models]
     changes = (*model_changes(*texts), *_held_changes(curves))
     return Comparison(_called(old, new), changes, curves, tuple(missing))
+
+
+def _alike(old: Branch, new: Branch) -> bool:
+    """Whether two curves answer one question: of one kind, in the same parameters."""
+    return old.kind == new.kind and set(old.free) == set(new.free)
 
 
 def _called(old: str | Path, new: str | Path) -> tuple[str, str]:

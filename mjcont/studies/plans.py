@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from mjcont.arguments import checked
 from mjcont.errors import StudyError, did_you_mean, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.loading import shipped_folder, shipped_models
-from mjcont.results.arguments import checked
 from mjcont.results.quantities import FRICTION
 from mjcont.studies import forms as f
 from mjcont.studies.answers import ANSWER, AnswerPlan, read_answer
@@ -116,7 +116,7 @@ class Study:
         """
         plan = self.sweep
         if plan is None:
-            raise StudyError(f"study '{self.file}': it has no table [sweep]: docs/sweeps.md tells what goes in there")
+            raise StudyError(f"study '{self.file}': it has no table [sweep]: see `mjcont docs sweeps`")
         needed = {p.branch for p in plan.points if p.branch}
         branches = tuple(b for b in self.branches if b.name in needed)
         starts = [self.mechanism.values(b.start) for b in branches]

@@ -10,7 +10,7 @@ from mjcont.studies import forms as f
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
 from mjcont.studies import values as v
-from mjcont.studies.forms import PLOT_SUFFIXES
+from mjcont.studies.forms import FILE_STEM, PLOT_SUFFIXES
 from mjcont.studies.keys import Context, Key, Kind, takes
 from mjcont.studies.orbits import ORBITS, check_plotted, default_curves, plotted
 from mjcont.studies.schema import Table
@@ -18,13 +18,22 @@ from mjcont.studies.schema import Table
 CURVES = ("branch", "locus", "diagram", "path", *ORBITS)
 
 
+def _wrong(file: str) -> str:
+    """Return what is wrong with the name of a plot's file."""
+    if "/" in file or "\\" in file:
+        return "names a folder, which `mjcont run -o` says"
+    strange = dict.fromkeys(c for c in file if not FILE_STEM.fullmatch(f"a{c}"))
+    if strange:
+        return "has " + ", ".join("a space" if c == " " else f"'{c}'" for c in strange)
+    return "begins with no letter or digit" if file.endswith(PLOT_SUFFIXES) else "has another ending"
+
+
 @takes(f.PLOT_FILE)
 def _plot_file(table: Table, key: str, context: Context) -> str:
     file = table.text(key)
-    if not f.FILE_STEM.fullmatch(file) or Path(file).suffix not in PLOT_SUFFIXES:
-        suffixes = ", ".join(PLOT_SUFFIXES)
-        raise table.error(key, f"'{file}' must be a file name of letters, digits, '-', '_' and '.', without a folder, "
-                               f"ending in one of {suffixes}")
+    if not FILE_STEM.fullmatch(file) or Path(file).suffix not in PLOT_SUFFIXES:
+        raise table.error(key, f"'{file}' {_wrong(file)}: expected a file name of letters, digits, '-', '_' and '.' "
+                               f"that ends in one of {', '.join(PLOT_SUFFIXES)}")
     return file
 
 

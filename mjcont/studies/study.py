@@ -9,10 +9,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from mjcont.arguments import checked
 from mjcont.curves.continuation import continue_equilibria
 from mjcont.errors import MjcontError
 from mjcont.outside.saving import output_folder
-from mjcont.results.arguments import checked
 from mjcont.results.model import units
 from mjcont.results.points import show
 from mjcont.studies.plans import BranchPlan, PlotPlan, Study, Task, check_study, load_study

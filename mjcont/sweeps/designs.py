@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
+from mjcont.arguments import check_fields
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.arguments import check_fields
 
 DESIGNS = ("latin hypercube", "monte carlo", "quasi-random", "grid", "list")
 EXTENDABLE = ("monte carlo", "quasi-random")  # the first cases of a larger one are those of a smaller one

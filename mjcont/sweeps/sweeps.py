@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import ParameterError
 from mjcont.influence.critical import check_alone, check_not_own
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.search.spanning import heights, spanning_tree
 from mjcont.outside.saving import output_folder
 from mjcont.outside.sealing import digest
-from mjcont.results.arguments import checked
 from mjcont.results.files import frozen
 from mjcont.results.model import provenance, units
 from mjcont.results.points import Column, SpecialPoint

@@ -8,9 +8,9 @@ from typing import Any
 import jsonschema
 import pytest
 
+from mjcont.commands import jsonschema as own
 from mjcont.commands.cli import main
 from mjcont.models.loading import shipped_folder
-from mjcont.studies import jsonschema as own
 from mjcont.studies.first import first_study
 from mjcont.studies.plans import check_study
 from mjcont.studies.plots import PLOT

@@ -202,7 +202,7 @@ MISTAKES = {
         ["plot[0].y: unknown column 'theta'", "theta_1"],
     ),
     "plot without column": (GOOD + PLOT.replace('x = "F"\n', ""), ["plot[0].x: this key is missing"]),
-    "plot in a folder": (GOOD + PLOT.replace("fig", "a/fig"), ["plot[0].file: 'a/fig.png' must be a file name"]),
+    "plot in a folder": (GOOD + PLOT.replace("fig", "a/fig"), ["plot[0].file: 'a/fig.png' names a folder"]),
     "plot of unknown format": (GOOD + PLOT.replace("png", "bmp"), ["plot[0].file", ".png, .pdf, .svg"]),
     "plot files twice": (GOOD + PLOT + PLOT, ["plot[1].file: 'fig.png' is the file of plot[0] already"]),
     "declared twice": (GOOD + '[declare.k_j]\ntargets = ["joint:x_1.stiffness"]\n', ["declare.k_j: the model has"]),

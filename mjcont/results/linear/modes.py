@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
 from mjcont.outside import csvfiles
-from mjcont.results.arguments import checked
 from mjcont.results.histories import History
 from mjcont.results.model import Model, provenance
 from mjcont.results.points import Column, Point

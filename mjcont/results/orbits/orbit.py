@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.path import Path
-from mjcont.results.arguments import checked
 from mjcont.results.histories import History
 from mjcont.results.model import Model, provenance
 from mjcont.results.orbits.readings import Reading, along, readings

@@ -91,7 +91,7 @@ def _refuse_other(verb: str, name: str, value: Any, kinds: Sequence[_Kind]) -> N
         return
     called = list(dict.fromkeys(k.called for k in kinds if k.called != "None")) or ["None"]
     advice = next((f": {_ADVICE[c]}" for c in called if c in _ADVICE), "")
-    raise ParameterError(f"{verb}: {name} must be {' or '.join(called)}, got {_shown(value)}{advice}")
+    raise ParameterError(f"{verb}: {name} must be {_either(called)}, got {_shown(value)}{advice}")
 
 
 def _shown(value: Any) -> str:
@@ -117,7 +117,9 @@ def _kinds(hint: Any) -> list[_Kind]:
     if isinstance(origin, type) and issubclass(origin, Mapping):
         return [_Kind("a dict", functools.partial(_mapping, keys=_kinds(inner[0])))]
     if origin in (Collection, Sequence, list):
-        return [_Kind("a list", functools.partial(_listed, entries=_kinds(inner[0]) if inner else [_ANYTHING]))]
+        entries = _kinds(inner[0]) if inner else [_ANYTHING]
+        of = "" if entries == [_ANYTHING] else f" of {_either([_several(k.called) for k in entries])}"
+        return [_Kind(f"a list{of}", functools.partial(_listed, entries=entries))]
     opaque = getattr(hint, "_is_protocol", False) and not getattr(hint, "_is_runtime_protocol", False)
     if origin is not None or opaque or not isinstance(hint, type) or hint in (Any, object, tuple, np.ndarray):
         return [_ANYTHING]
@@ -125,6 +127,17 @@ def _kinds(hint: Any) -> list[_Kind]:
         return [_Kind("a path", lambda value: isinstance(value, os.PathLike))]
     article = "an" if hint.__name__[0] in "AEIO" else "a"
     return [_Kind(_CALLED.get(hint.__name__, f"{article} {hint.__name__}"), lambda value: isinstance(value, hint))]
+
+
+def _either(words: Sequence[str]) -> str:
+    *most, last = " or ".join(words).split(" or ")
+    return ", ".join(most) + (" or " if most else "") + last
+
+
+def _several(called: str) -> str:
+    """Return what many of a kind are called."""
+    word = called.partition(" ")[2]
+    return word + ("es" if word.endswith(("h", "s")) else "s")
 
 
 def _number(value: Any) -> bool:

@@ -1,6 +1,6 @@
 """The JSON Schema of study files, made of the tables that read them: editors complete and check with it.
 
-`study.schema.json` beside this file is its text, written by scripts/study_tables.py.
+`studies/study.schema.json` is its text, written by scripts/study_tables.py.
 """
 
 from __future__ import annotations
