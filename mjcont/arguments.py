@@ -25,17 +25,17 @@ P = ParamSpec("P")
 R = TypeVar("R")
 # what to write, by the kind that is wanted
 _ADVICE = {
-    "a Mechanism or a VectorField": 'such as mc.Mechanism.from_xml("overcentre") or mc.VectorField(f, u0, parameters)',
-    "a Mechanism": 'such as mc.Mechanism.from_xml("overcentre")',
-    "a Branch": "such as mc.continue_equilibria(...) or mc.load(path) return",
-    "a SpecialPoint": 'take one of a branch: branch.point("LP1")',
-    "a Point": 'take one of a branch: branch.point("LP1"), or branch.at(...)[0]',
-    "a Study": "such as mc.load_study(path) returns",
-    "a MjSpec": "Mechanism.from_xml takes paths and text, from_model compiled models",
-    "a MjModel": "Mechanism.from_xml takes paths and text, from_spec an MjSpec",
-    "a dict": 'such as {"F": 20.0}',
+    "Model": 'such as mc.Mechanism.from_xml("overcentre") or mc.VectorField(f, u0, parameters)',
+    "Mechanism": 'such as mc.Mechanism.from_xml("overcentre")',
+    "Branch": "such as mc.continue_equilibria(...) or mc.load(path) return",
+    "SpecialPoint": 'take one of a branch: branch.point("LP1")',
+    "Point": 'take one of a branch: branch.point("LP1"), or branch.at(...)[0]',
+    "Sweepable": 'such as mc.load_study(path) returns, or {"fold": branch.point("LP1")}',
+    "Study": "such as mc.load_study(path) returns",
+    "MjSpec": "Mechanism.from_xml takes paths and text, from_model compiled models",
+    "MjModel": "Mechanism.from_xml takes paths and text, from_spec an MjSpec",
 }
-_CALLED = {"Model": "a Mechanism or a VectorField", "Sweepable": "a Study", "Path": "a path"}
+_CALLED = {"Model": "a Mechanism or a VectorField", "Sweepable": "a Study"}
 # entries of a list or a mapping that are looked at, and what a message shows of a value
 _LOOKED_AT, _LONGEST = 50, 40
 
@@ -51,14 +51,20 @@ def checked(verb: Callable[P, R]) -> Callable[P, R]:
 
     @functools.wraps(verb)
     def call(*args: P.args, **kwargs: P.kwargs) -> R:
-        for name, value in signature.bind(*args, **kwargs).arguments.items():
+        try:
+            given = signature.bind(*args, **kwargs).arguments
+        except TypeError:
+            return verb(*args, **kwargs)  # Python says itself what is missing, or one too many
+        owner = type(next(iter(args), None)).__name__ + "." if "self" in signature.parameters else ""
+        called = owner.removesuffix(".") if verb.__name__ == "__init__" else owner + verb.__name__
+        for name, value in given.items():
             kind, named = signature.parameters[name].kind, [(name, value)]
             if kind is inspect.Parameter.VAR_POSITIONAL:
                 named = [(name, each) for each in value]
             elif kind is inspect.Parameter.VAR_KEYWORD:
                 named = list(value.items())
             for own, each in named:
-                _refuse_other(verb.__qualname__.removesuffix(".__init__"), own, each, wanted().get(name, [_ANYTHING]))
+                _refuse_other(called, own, each, wanted().get(name, [_ANYTHING]))
         return verb(*args, **kwargs)
 
     return call
@@ -80,17 +86,18 @@ class _Known(dict[str, Any]):
 
 @dataclass(frozen=True, slots=True)
 class _Kind:
-    """A kind of value: what it is called, and whether a value is of it."""
+    """A kind of value: what it is called, whether a value is of it, and what to write."""
 
     called: str
     holds: Callable[[Any], bool]
+    advice: str = ""
 
 
 def _refuse_other(verb: str, name: str, value: Any, kinds: Sequence[_Kind]) -> None:
     if any(k.holds(value) for k in kinds):
         return
     called = list(dict.fromkeys(k.called for k in kinds if k.called != "None")) or ["None"]
-    advice = next((f": {_ADVICE[c]}" for c in called if c in _ADVICE), "")
+    advice = f": {kinds[0].advice}" if kinds[0].advice else ""
     raise ParameterError(f"{verb}: {name} must be {_either(called)}, got {_shown(value)}{advice}")
 
 
@@ -115,7 +122,8 @@ def _kinds(hint: Any) -> list[_Kind]:
     if origin is np.ndarray:
         return [_Kind("an array of numbers", _numbers)]
     if isinstance(origin, type) and issubclass(origin, Mapping):
-        return [_Kind("a dict", functools.partial(_mapping, keys=_kinds(inner[0])))]
+        advice = 'such as {"F": 20.0}' if inner[1] is float else ""
+        return [_Kind("a dict", functools.partial(_mapping, keys=_kinds(inner[0])), advice)]
     if origin in (Collection, Sequence, list):
         entries = _kinds(inner[0]) if inner else [_ANYTHING]
         of = "" if entries == [_ANYTHING] else f" of {_either([_several(k.called) for k in entries])}"
@@ -125,8 +133,9 @@ def _kinds(hint: Any) -> list[_Kind]:
         return [_ANYTHING]
     if issubclass(hint, os.PathLike):
         return [_Kind("a path", lambda value: isinstance(value, os.PathLike))]
-    article = "an" if hint.__name__[0] in "AEIO" else "a"
-    return [_Kind(_CALLED.get(hint.__name__, f"{article} {hint.__name__}"), lambda value: isinstance(value, hint))]
+    word = hint.__name__
+    called = _CALLED.get(word, f"{'an' if word[0] in 'AEIO' or word.startswith('Mj') else 'a'} {word}")
+    return [_Kind(called, lambda value: isinstance(value, hint), _ADVICE.get(word, ""))]
 
 
 def _either(words: Sequence[str]) -> str:

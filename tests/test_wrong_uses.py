@@ -148,6 +148,10 @@ def test_a_wrong_kind_of_thing_is_told_in_a_sentence(use: str, tmp_path: Path, m
          "returned shape (1,) for 2 unknowns"),
         (lambda: mc.simulate(FIELD, keyframe="up"), "keyframe is for a Mechanism: vector field is a vector field"),
         (lambda: BRANCH.at(a="5"), "Branch.at: a must be a number, got the str '5'"),
+        (lambda: mc.Mechanism("overcentre"), "Mechanism: model must be an MjModel, got the str 'overcentre'"),
+        (lambda: mc.add_bushes(TRUSS), "model must be a string, a path or an MjSpec, got the Mechanism"),
+        (lambda: TRUSS.observe("sum", "x + z"), "Mechanism.observe: function must be a function, got the str 'x + z'"),
+        (lambda: mc.sweep(FOLD, SPREAD, out="x"), 'returns, or {"fold": branch.point("LP1")}'),
         (lambda: BRANCH[10**6], "row 1000000 of "),
         (lambda: mc.plot("a.h5", x="F", y="z"),
          "plot takes branches one by one, as in plot(branch, locus, x=..., y=...); got a str"),
@@ -158,6 +162,11 @@ def test_a_message_says_what_is_wanted_and_what_to_write(wrong: Callable[[], Any
     with pytest.raises(mc.MjcontError) as error:
         wrong()
     assert words in str(error.value)
+
+
+def test_what_is_missing_is_told_by_python_itself() -> None:
+    with pytest.raises(TypeError, match=r"follow_point\(\) missing 1 required positional argument: 'values'"):
+        mc.follow_point(FOLD)
 
 
 def test_rows_come_one_by_one_and_from_the_end() -> None:

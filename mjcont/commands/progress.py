@@ -159,7 +159,7 @@ class Told(Reporter):
         self._ranges, self._reached, self._found = ranges, {}, Counter()
         self._say(f"{name}: {task}")
         number, count = place
-        self._shown.begin(f"{name} ({number} of {count})" if count > 1 else name)
+        self._shown.begin(f"{name} (result {number} of {count})" if count > 1 else name)
 
     def point(self, count: int, found: Found) -> None:
         """Show the number of points, where the curve is, and what was found on it."""

@@ -67,6 +67,7 @@ class Mechanism(Shareable, Observed, Held, Model):
     parameters: ParameterTable
     declared: dict[str, Any]
 
+    @checked
     def __init__(
         self,
         model: mujoco.MjModel,

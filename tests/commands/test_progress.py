@@ -72,7 +72,7 @@ def test_a_curve_says_where_it_is_what_it_found_and_how_long_it_may_take() -> No
     clock.now = 10.0
     told.point(7, Found("LP", {"F": 30.0}, {}))
     told.point(8, Found("", {"F": 30.0}, {}))
-    assert gauge.line() == "equilibria (2 of 3): 8 points, F = 30 N, 1 LP, 10 s, about 40 s left"
+    assert gauge.line() == "equilibria (result 2 of 3): 8 points, F = 30 N, 1 LP, 10 s, about 40 s left"
 
 
 def test_angles_are_told_in_degrees() -> None:
