@@ -2,6 +2,8 @@
 
 import io
 import math
+import time
+from collections.abc import Callable
 
 import pytest
 
@@ -19,6 +21,14 @@ class Clock:
 
     def __call__(self) -> float:
         return self.now
+
+
+def until(done: Callable[[], bool]) -> None:
+    """Wait for what a thread does."""
+    deadline = time.monotonic() + 60.0
+    while not done():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
 
 
 @pytest.mark.parametrize(
@@ -90,8 +100,7 @@ def test_a_terminal_has_one_line_that_is_wiped_at_the_end() -> None:
     with Gauge(stream, clock) as gauge:
         gauge.begin("work")
         clock.now = 5.0
-        while "work: 5 s" not in stream.getvalue():
-            pass
+        until(lambda: "work: 5 s" in stream.getvalue())
     assert stream.getvalue().endswith("\r\x1b[K")
     assert "\n" not in stream.getvalue()
 
@@ -105,8 +114,7 @@ def test_others_write_where_the_line_was_wiped() -> None:
             stream.write("figure 3\n")
         written = stream.getvalue()
         assert written.endswith("\r\x1b[Kfigure 3\n")
-        while stream.getvalue() == written:  # the line comes back
-            pass
+        until(lambda: stream.getvalue() != written)  # the line comes back
 
 
 def test_a_line_is_no_longer_than_the_terminal_is_wide(monkeypatch: pytest.MonkeyPatch) -> None:
