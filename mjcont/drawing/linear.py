@@ -12,6 +12,7 @@ from mjcont.drawing.picture import picture
 from mjcont.drawing.plotting import COLORS, LINE_STYLES, new_figure, set_panel_title
 from mjcont.drawing.poses import mechanism_of
 from mjcont.drawing.sketch import padded, render
+from mjcont.errors import MjcontError
 from mjcont.outside.escapes import for_picture
 
 if TYPE_CHECKING:
@@ -24,6 +25,8 @@ _BACK, _FRONT = "#b9c6d6", "#b8b8b8"
 def draw_modes(modes: Modes, numbers: Sequence[int] | None, cols: int, plane: str | None) -> Any:
     """Draw a panel a mode: rest in grey, the other end of its swing in blue behind it, the mode on top."""
     chosen = [modes.mode(n) for n in numbers] if numbers is not None else list(modes)[:_FIRST]
+    if not chosen:
+        raise MjcontError("there are no modes to draw")
     mechanism, values = mechanism_of(modes.point), modes.point.parameters
     shown = [
         [picture(mechanism, state, plane=plane, inputs=values)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.drawing.axes import show_axis
 from mjcont.drawing.loadpaths import draw_path
 from mjcont.drawing.notes import LABEL, place_labels, xy
@@ -70,6 +71,7 @@ def set_panel_title(ax: Axes, text: str) -> None:
     ax.set_title(text, loc="left", fontsize=9.5)
 
 
+@checked
 def plot(
     *curves: Branch | LoadPath | Iterable[Branch | LoadPath],
     x: str,
@@ -160,7 +162,8 @@ def each_curve(curves: Iterable[Any]) -> list[Any]:
     """Return curves one by one: diagrams and lists of them are taken apart."""
     found: list[Any] = []
     for c in curves:
-        found += [c] if isinstance(c, Branch | LoadPath) or not isinstance(c, Iterable) else each_curve(c)
+        plain = isinstance(c, Branch | LoadPath | str) or not isinstance(c, Iterable)
+        found += [c] if plain else each_curve(c)
     return found
 
 

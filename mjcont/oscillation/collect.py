@@ -79,13 +79,10 @@ def reporter(progress: Progress | None) -> Callable[[Item], None] | None:
 
     def report(item: Item) -> None:
         nonlocal count
-        if isinstance(item, CurvePoint):
-            count += 1
-            progress(count, None)
-        elif isinstance(item, Located):
-            system_values = item.point.local.values
-            names = item.point.local.wrt
-            progress(count, Found(item.kind, {n: system_values[n] for n in names}, {}))
+        if isinstance(item, CurvePoint | Located):
+            count += isinstance(item, CurvePoint)
+            kind, local = ("", item.local) if isinstance(item, CurvePoint) else (item.kind, item.point.local)
+            progress(count, Found(kind, {n: local.values[n] for n in local.wrt}, {}))
 
     return report
 

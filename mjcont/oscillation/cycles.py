@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction, start_from
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
@@ -33,6 +34,7 @@ Start = Mapping[str, float] | Point | History
 
 
 @np.errstate(all="ignore")
+@checked
 def continue_cycles(
     origin: SpecialPoint | OrbitPoint | Orbit | Model,
     parameter: str | None = None,
@@ -67,7 +69,7 @@ def continue_cycles(
     stop : callable, optional
         `stop(point)` returns a sentence to end the curve there; `point.orbit` is its orbit.
     progress : callable, optional
-        `progress(count, special)` after each orbit and special point.
+        `progress(count, found)` after each orbit; `found.kind` is that of a special one, empty at others.
     **options
         `mesh`, `degree`, `scheme`, `tol`, `mesh_max`, `period_max`, and fields of `Settings` (ds, ds_max, ...).
 
@@ -161,6 +163,7 @@ def _from_motion(
 
 
 @np.errstate(all="ignore")
+@checked
 def find_cycle(
     problem: Model, start: Start | None = None, *, keyframe: str | None = None, state: Any = None, **options: Any
 ) -> Orbit:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction, start_from
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
@@ -33,6 +34,7 @@ Start = Mapping[str, float] | Point | AnyOrbit
 
 
 @np.errstate(all="ignore")
+@checked
 def continue_response(
     problem: Model | AnyOrbit,
     parameter: str | None = None,

@@ -22,6 +22,7 @@ from typing import Any
 import h5py
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
@@ -232,6 +233,7 @@ class LoadPath(Tabular, Shown):
         last = self.segments[-1]
         return last.branch.row(int(last.rows()[-1]))
 
+    @checked
     def jump(self, label: str) -> Jump:
         """Return the jump with a label such as "LP1"."""
         for j in self.jumps:

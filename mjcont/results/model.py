@@ -12,7 +12,7 @@ from typing import Any, Protocol, Self
 
 from mjcont.errors import BoundsError, MjcontError, RangeWarning, unknown_name
 from mjcont.numerics.equations.problem import Array, Equations, Values
-from mjcont.results.quantities import Observable, Parameter, column_of, finite_pair
+from mjcont.results.quantities import Observable, Parameter, check_name, column_of, finite_pair
 
 
 class Model(Equations):
@@ -73,6 +73,7 @@ class Model(Equations):
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`."""
+        check_name(name)
         if name not in self.parameters:
             raise unknown_name("parameter", name, self.parameters)
         return self.parameters[name]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.path import Path
@@ -120,6 +121,7 @@ class Orbit(Shown):
         halves = self.path.order == 2 or self.activated
         return found[:, :c], found[:, c : 2 * c] if halves else self.path.rates(places)
 
+    @checked
     def at(self, time: float) -> Array:
         """Return the state at a time, taken into the period: u, or qpos, qvel and activations one after the other."""
         turns, tau = divmod(time / self.period, 1.0)
@@ -130,12 +132,14 @@ class Orbit(Shown):
         """Return an observable at `times`, (n,)."""
         return self.read(name, self.times)
 
-    def read(self, name: str, times: Any) -> Array:
+    @checked
+    def read(self, name: str, times: float | Sequence[float] | Array) -> Array:
         """Return an observable at times in the period, (m,): the polynomials through its values at the points."""
         tau = np.atleast_1d(np.asarray(times, dtype=float)) / self.period
         return along(self.path, self.reading, self._column(name), tau)[0]
 
-    def rate(self, name: str, times: Any) -> Array:
+    @checked
+    def rate(self, name: str, times: float | Sequence[float] | Array) -> Array:
         """Return the derivative of an observable in time, at times in the period, (m,)."""
         tau = np.atleast_1d(np.asarray(times, dtype=float)) / self.period
         return along(self.path, self.reading, self._column(name), tau)[1] / self.period
@@ -160,6 +164,7 @@ class Orbit(Shown):
             raise unknown_name("observable or parameter", name, self.units)
         return self.units[own]
 
+    @checked
     def harmonics(self, name: str, count: int = 5) -> Array:
         """Return the complex harmonics 0 .. count of an observable, (count + 1,).
 
@@ -187,6 +192,7 @@ class Orbit(Shown):
         own = (*own, self.forcing.get("conserves", {}).get("chosen_by"))
         return {n: v for n, v in self.parameters.items() if n not in own}
 
+    @checked
     def history(self, samples: int | None = None) -> History:
         """Return the period as a time history: it plots, animates and is stored like any other.
 
@@ -207,6 +213,7 @@ class Orbit(Shown):
             self.problem, provenance(self.problem), self.constants(),
         )
 
+    @checked
     def plot(self, x: str, y: str | None = None, **options: Any) -> Axes:
         """Draw the orbit: y against x, by default the rate of x; "time" may be either. Options as `plot_orbits`."""
         from mjcont.drawing.orbits import plot_orbits
