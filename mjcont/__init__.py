@@ -66,7 +66,7 @@ if TYPE_CHECKING:
     from mjcont.results.formats import load
     from mjcont.results.histories import History
     from mjcont.results.linear import Mode, Modes, Transfer
-    from mjcont.results.loadpaths import Jump, LoadPath, Segment
+    from mjcont.results.loadpaths import Delay, Jump, LoadPath, Segment
     from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
     from mjcont.results.orbits import CycleBranch, Orbit
     from mjcont.results.points import Column, Point, SpecialPoint
@@ -114,7 +114,7 @@ _HOMES = {
     "mjcont.results.certificates": ("Certificate",),
     "mjcont.results.formats": ("load",),
     "mjcont.results.histories": ("History",),
-    "mjcont.results.loadpaths": ("Jump", "LoadPath", "Segment"),
+    "mjcont.results.loadpaths": ("Delay", "Jump", "LoadPath", "Segment"),
     "mjcont.results.maps": ("FollowedPoint", "SpecialMap", "WorstCase"),
     "mjcont.results.linear": ("Mode", "Modes", "Transfer"),
     "mjcont.results.orbits": ("CycleBranch", "Orbit"),
@@ -140,6 +140,7 @@ __all__ = [
     "Column",
     "ConstraintStiffness",
     "CycleBranch",
+    "Delay",
     "Diagram",
     "Equilibria",
     "Equilibrium",

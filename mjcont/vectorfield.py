@@ -37,6 +37,8 @@ from mjcont.results.quantities import (
 _FAR, _LEAST = 20.0, 1e-3
 # components all below this part of the scale are zero, as far as equations without a scale can tell
 _NOTHING = 1e-8
+# states at which the function is called between looks at the clock
+_TOGETHER = 32
 
 
 class VectorField(Model):
@@ -187,9 +189,30 @@ class VectorField(Model):
             raise FunctionError(f"the function of {self.name} returned shape {found.shape} for {self.n} unknowns")
         return found.reshape(self.n)
 
+    def rates(self, states: Array, values: Sequence[Values], times: Sequence[float]) -> Array:
+        """Return f at states (m, n), each with its own parameter values and time in s, (m, n), as `rate` does."""
+        if not len(states):
+            return np.empty((0, self.n))
+        pieces = [slice(i, i + _TOGETHER) for i in range(0, len(states), _TOGETHER)]
+        return np.concatenate([self._some(states[at], values[at], times[at]) for at in pieces])
+
+    def _some(self, states: Array, values: Sequence[Values], times: Sequence[float]) -> Array:
+        """Return f at few states: at once, or one by one where the function has no value or not the right shape."""
+        check()
+        given = zip(states, values, times, strict=True) if self.timed else zip(states, values, strict=True)
+        try:
+            found = np.array([self.function(*each) for each in given], dtype=float)
+        except Exception:
+            found = np.empty(0)
+        if found.shape != states.shape:
+            return np.array([self.rate(u, p, t) for u, p, t in zip(states, values, times, strict=True)])
+        thread = threading.get_ident()
+        self._counts[thread] = self._counts.get(thread, 0) + len(states)
+        return found
+
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x plus each row of `steps`, (m, n)."""
-        return np.array([self.residual(x + s, values) for s in steps])
+        return self.rates(x + steps, [values] * len(steps), [0.0] * len(steps))
 
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()

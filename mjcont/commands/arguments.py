@@ -142,7 +142,7 @@ def _results(command: Command) -> None:
     p.add_argument("-q", "--quantity", metavar="COL", action="append",
                    help="what moves (repeat it; default: the point's own parameters)")
     p.add_argument("-o", "--out", type=place, metavar="FILE", help="draw a tornado chart of the first: png, pdf or svg")
-    p.add_argument("--csv", type=place, metavar="FILE.csv", help="write the table, SI and radians")
+    p.add_argument("--csv", type=place, metavar="FILE.csv", help="write the table, angles in degrees")
 
     p = command("export", "write a stored branch as CSV")
     p.add_argument("file", metavar="FILE.h5")

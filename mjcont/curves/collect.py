@@ -225,7 +225,7 @@ def _columns(rows: CurveRows, problem: Model, unit_of: Mapping[str, str]) -> dic
     """Return the columns of a branch: the free parameters, and the observables that have another name."""
     system, base, lead = rows.system, rows.values(0), rows.system.names[0]
     if len(system.free) == 1 and lead in problem.parameters:
-        measured = problem.measure_along(rows.states, base, lead, rows.column(0))
+        measured = problem.measure_along(rows.states, base, {lead: rows.column(0)})
     else:
         measured = problem.measure(rows.states, [rows.values(i) for i in range(len(rows))])
     columns = {

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy.stats import qmc
 
 from mjcont.curves.collect import Found, Progress, make_point
 from mjcont.curves.continuation import hold_rigid_modes
@@ -104,7 +103,7 @@ def find_equilibria(
         ended = search.run(first, starts, seed, limits, progress)
     energies = potential_energy(problem, np.array(search.kept), search.values)
     shown = tuple(name for name in search.ranges if name in problem.observables)
-    return gather(problem.name, search.points, search.hits, energies, ended, search.account(), search.notes, shown)
+    return gather(problem, search.points, search.hits, energies, ended, search.account(), search.notes, shown)
 
 
 def _prepare(problem: Model, values: dict[str, float], region: Region | None) -> _Search:
@@ -207,6 +206,8 @@ class _Search:
 
     def learn_turns(self, labels: Any) -> None:
         """Give a period to the angles whose full turns change nothing."""
+        from scipy.stats import qmc
+
         # even points of symmetric ranges are often equilibria themselves, at which f is rounding
         cube = (qmc.Halton(self.problem.n, scramble=False).random(4)[1:] + _UNEVEN) % 1.0
         states = self.coordinates.draw(cube)
@@ -218,6 +219,8 @@ class _Search:
 
     def run(self, first: list[Array], starts: int, seed: int, limits: _Limits, progress: Progress | None) -> str:
         """Search until nothing new turns up or a limit is reached, and return how it ended."""
+        from scipy.stats import qmc
+
         sampler = qmc.Halton(self.problem.n, seed=seed)
         generator = np.random.default_rng(seed)
         rounds = barren = 0

@@ -22,9 +22,9 @@ def draw_barriers(curve: BarrierCurve, ax: Axes | None = None) -> Axes:
         _, ax = new_figure()
     values = np.degrees(curve.values) if curve.unit == "rad" else curve.values
     energy = np.where(np.isfinite(curve.energy), curve.energy, np.nan)
-    apart = np.flatnonzero(np.diff(curve.rows) > 1) + 1
-    for i, run in enumerate(np.split(np.arange(len(values)), apart)):
-        ax.plot(values[run], energy[run], color=COLORS[i % len(COLORS)], linewidth=1.8)
+    for i in range(int(curve.pieces[-1]) + 1):
+        on = curve.pieces == i
+        ax.plot(values[on], energy[on], color=COLORS[i % len(COLORS)], linewidth=1.8, label="_barrier")
     ax.set(xlabel=axis_label(curve.name, curve.unit), ylabel="energy barrier [J]")
     ax.set_ylim(bottom=0.0)
     return ax

@@ -1,8 +1,9 @@
-"""Charts of what goes with what: bars for sensitivities (a tornado), a sweep's distribution and scatter."""
+"""Charts of what goes with what: bars for sensitivities (a tornado), a sweep's distribution and scatter, histories."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from mjcont.outside.escapes import for_picture
 from mjcont.results.points import Column, show
 
 if TYPE_CHECKING:
+    from mjcont.results.histories import History
     from mjcont.results.sensitivities import Sensitivities
     from mjcont.results.sweeps import SweepTable
 
@@ -83,3 +85,17 @@ def draw_scatter(table: SweepTable, x: Column, y: Column, ax: Any) -> Any:
     axes.set(xlabel=axis_label(x.name, x.unit), ylabel=axis_label(y.name, y.unit))
     axes.legend(loc="best", fontsize=7.5)
     return axes
+
+
+def draw_history(history: History, columns: Sequence[str]) -> Any:
+    """Draw columns of a history against time, one below the other, and return the figure."""
+    from mjcont.drawing.plotting import COLORS, new_figure
+
+    shown = [(name, history.unit(name), scaled(history[name], history.unit(name))) for name in columns]
+    figure, axes = new_figure(len(shown), 1, (5.2, 0.9 + 1.7 * len(shown)), sharex=True, squeeze=False)
+    for i, (ax, (name, unit, values)) in enumerate(zip(axes[:, 0], shown, strict=True)):
+        ax.plot(history["time"], values, color=COLORS[i % len(COLORS)])
+        ax.set_ylabel(axis_label(name, unit))
+    axes[-1, 0].set_xlabel("time [s]")
+    figure.align_ylabels()
+    return figure

@@ -84,15 +84,7 @@ class Moving:
         together = not core.evaluator.one_by_one
         if not driven or (together and all(core.writer.alone(parameters, name) for name in driven)):
             core.writer.write(parameters, values)
-            controls = None
-            if driven:
-                controls = np.empty((m, core.model.nu))
-                controls[:] = core.writer.inputs.ctrl
-                for name, column in driven.items():
-                    for target in parameters[name].targets:
-                        for i in target.index:
-                            controls[:, i] += target.factor * (column - values[name])
-                controls = np.repeat(controls, k, axis=0)
+            controls = np.repeat(core.writer.controls(parameters, values, driven), k, axis=0) if driven else None
             return self._rows(flat, controls).reshape(m, k, -1)
         found = np.empty((m, k, self.n + self.na))
         for i in range(m):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import islice
+from itertools import islice, pairwise
 from typing import Any
 
 import numpy as np
@@ -86,7 +86,15 @@ def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: boo
     barriers = _along(branch, rests, folds, _listed(saddles), search)
     energy = np.array([b.energy for b in barriers])
     values = np.array([p[name] for p in rests])
-    return BarrierCurve(name, branch.unit(name), values, energy, np.array(rows), tuple(barriers))
+    pieces = _pieces(branch.stability, rows, folds)
+    return BarrierCurve(name, branch.unit(name), values, energy, np.array(rows), tuple(barriers), pieces)
+
+
+def _pieces(stability: Sequence[str] | Array, rows: Sequence[int], folds: Sequence[bool]) -> Array:
+    """Return the number of the stable piece that each of some rows belongs to; between two pieces rows are unstable."""
+    cut = [(folds[k] and folds[k + 1]) or any(s == "unstable" for s in stability[i + 1 : j])
+           for k, (i, j) in enumerate(pairwise(rows))]
+    return np.concatenate([[0], np.cumsum(cut, dtype=int)])
 
 
 def _spaced(branch: Branch, rows: Sequence[int], labels: Sequence[str]) -> list[int]:

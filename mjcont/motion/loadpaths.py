@@ -27,6 +27,7 @@ from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.numerics.equations.system import Local, System
+from mjcont.numerics.points.passage import Passage, passage
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint
@@ -42,6 +43,8 @@ _HAIR = 1e-6
 _BEYOND = 1e-3
 _ASIDE = 1e-3
 _TURNED = -1e-6
+# a load is zero below this part of the way left
+_NO_LOAD = 1e-6
 
 
 def load_path(
@@ -276,12 +279,26 @@ class _Follower:
         if lost.kind == "BP":
             message += "; which way it goes is decided by imperfections, one was chosen"
         return Jump(label, lost.kind, point, landing.point, index, energy, note, landing.time, landing.steps,
-                    landing.status, message, landing.states)
+                    landing.status, message, landing.states, *_passage(problem, point, target))
 
 
 def _toward(values: Values, target: Values, fraction: float) -> dict[str, float]:
     """Return parameter values a fraction of the rest of the way further."""
     return {**values, **{n: values[n] + fraction * (target[n] - values[n]) for n in target}}
+
+
+def _passage(problem: Any, point: Point, target: Values) -> tuple[str, float, Passage | None]:
+    """Return what the load changes first, its size there, and how a load that moves on to a target passes a fold."""
+    ways = {n: target[n] - point.parameters[n] for n in target if target[n] != point.parameters[n]}
+    vectors = point.vectors if isinstance(point, SpecialPoint) and point.kind == "LP" else {}
+    if not ways or not {"v", "w"} <= set(vectors):
+        return next(iter(target)), math.nan, None
+    first, way = next(iter(ways.items()))
+    local = Local(problem, point.state, point.parameters, tuple(ways), True)
+    slopes = local.par @ np.array([w / way for w in ways.values()])
+    size = abs(point.parameters[first])
+    size = size if size > _NO_LOAD * abs(way) else abs(way)
+    return first, size, passage(local, vectors["v"], vectors["w"], slopes)
 
 
 def _unstable(system: System, forward: int) -> Any:

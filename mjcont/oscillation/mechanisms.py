@@ -85,10 +85,9 @@ class MechanismFlow(ModelFlow):
 
     def measured(self, states: Array, phases: Array, values: Values) -> Array:
         """Return all observables at states (k, d) and phases (k,), shape (k, number of observables)."""
-        theirs, driven = self.theirs(values), self.driven(phases, values)
-        rows = [{**theirs, **{n: float(column[i]) for n, column in driven.items()}} for i in range(len(states))]
         places, speeds, activations = self._split(states)
-        return self.mechanism.measure(places, rows, None, speeds, activations)
+        driven = self.driven(phases, values)
+        return self.mechanism.measure_along(places, self.theirs(values), driven, speeds, activations)
 
 
 class ActuatedFlow(MechanismFlow):

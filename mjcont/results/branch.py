@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -18,11 +18,11 @@ from mjcont.results.model import Model, model_of
 from mjcont.results.points import Column, Mark, Point, SpecialPoint, show
 from mjcont.results.quantities import column_of
 from mjcont.results.spectra import Spectra
-from mjcont.results.text import Shown
+from mjcont.results.text import Cells, Shown, Tabular
 
 
 @dataclass(frozen=True, repr=False)
-class Branch(Shown):
+class Branch(Tabular, Shown):
     """A curve of equilibria, or a locus of special points.
 
     Attributes
@@ -214,20 +214,11 @@ class Branch(Shown):
 
         return save(self, path)
 
-    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
-        """Write the columns as CSV with units in the header, angles in degrees unless told otherwise."""
-        from mjcont.results.branchfiles import write_csv
-
-        return write_csv(self, path, degrees=degrees)
-
-    def to_dataframe(self) -> Any:
-        """Return a pandas DataFrame of the columns (SI and radians), stability and labels."""
-        try:
-            import pandas as pd
-        except ImportError as error:
-            raise MjcontError("to_dataframe needs pandas: pip install 'mjcont[notebook]'") from error
-        data = {c.name: c.values for c in self.columns.values()}
-        return pd.DataFrame({**data, "stability": self.stability, "n_unstable": self.n_unstable, "label": self.labels})
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        yield from ((c.name, c.unit, c.values) for c in self.columns.values())
+        yield "stability", "", self.stability
+        yield "unstable eigenvalues", "", self.n_unstable
+        yield "label", "", self.labels
 
     @property
     def labels(self) -> list[str]:

@@ -10,6 +10,7 @@ from typing import Any
 import h5py
 
 from mjcont.errors import MjcontError, ResultFileError, ResultWarning
+from mjcont.outside.hdf5text import Attributes
 from mjcont.outside.sealing import Damaged, opened, refuse_broken_seal
 from mjcont.results import histories, loadpaths, sweeps
 from mjcont.results.branchfiles import read_branch
@@ -68,12 +69,12 @@ def load(path: str | Path, problem: Model | None = None) -> Any:
 
 
 def _read(f: h5py.File, problem: Model | None, sealed: bool) -> Any:
-    if f.attrs.get("format") != "mjcont":
+    if Attributes(f).get("format") != "mjcont":
         raise Unfit(" was not written by mjcont")
-    version = int(f.attrs["format_version"])
+    version = int(Attributes(f)["format_version"])
     if version > FORMAT_VERSION:
         raise Unfit(f" has format version {version}; this mjcont reads up to {FORMAT_VERSION}: upgrade mjcont")
     if not sealed:
         refuse_broken_seal(f)
-    read: Reader = READERS.get(str(f.attrs["kind"]), read_cycles if GROUP in f else read_branch)
+    read: Reader = READERS.get(str(Attributes(f)["kind"]), read_cycles if GROUP in f else read_branch)
     return read(f, read_problem(f, problem))

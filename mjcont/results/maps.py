@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,12 +13,13 @@ from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.model import units as unit_of
 from mjcont.results.points import SpecialPoint, show
+from mjcont.results.text import Cells, Shown, Tabular
 
 _KINDS = ("contour", "surface")
 
 
-@dataclass(frozen=True, slots=True)
-class SpecialMap:
+@dataclass(frozen=True, slots=True, repr=False)
+class SpecialMap(Tabular, Shown):
     """A special point over a grid of parameters, SI and radians.
 
     Attributes
@@ -76,6 +77,14 @@ class SpecialMap:
             return draw_line(self, name, ax)
         return draw_map(self, name, kind, ax)
 
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        units = unit_of(self.point.model)
+        for name, grid in zip(self.axes, np.meshgrid(*self.axes.values(), indexing="ij"), strict=True):
+            yield name, units[name], grid.ravel()
+        own = (n for n in self.point.free if n not in self.axes)
+        yield from ((n, units[n], self[n].ravel()) for n in (*own, *self.point.observables))
+        yield "message", "", self.messages.ravel().tolist()
+
     def __str__(self) -> str:
         """Return the grid, and the range of the point's parameters with where the ends are."""
         shape = " x ".join(str(len(a)) for a in self.axes.values())
@@ -94,8 +103,8 @@ class SpecialMap:
         return "\n".join(lines)
 
 
-@dataclass(frozen=True, slots=True)
-class WorstCase:
+@dataclass(frozen=True, slots=True, repr=False)
+class WorstCase(Tabular, Shown):
     """The extreme of a special point over a box of parameters.
 
     Attributes
@@ -134,6 +143,11 @@ class WorstCase:
     starts: tuple[int, int] = (1, 1)
     grid: SpecialMap | None = field(repr=False, default=None)
 
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        last = {**self.parameters, self.quantity: self.value}
+        steps = [*self.path, *([last] if not self.path or dict(self.path[-1]) != last else [])]
+        return _steps(steps, list(last), self.point)
+
     def __str__(self) -> str:
         """Return the extreme, where it is, and the sentence."""
         units = unit_of(self.point.model)
@@ -146,8 +160,8 @@ class WorstCase:
         return f"{head}\n  {self.message}; {self.evaluations} evaluations\n  {self.point}"
 
 
-@dataclass(frozen=True, slots=True)
-class FollowedPoint:
+@dataclass(frozen=True, slots=True, repr=False)
+class FollowedPoint(Tabular, Shown):
     """A special point that was moved to other parameter values.
 
     Attributes
@@ -169,6 +183,15 @@ class FollowedPoint:
     path: Sequence[Mapping[str, float]] = field(repr=False)
     evaluations: int = 0
 
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        return _steps(self.path, list(self.path[0]), self.point)
+
     def __str__(self) -> str:
         """Return the sentence and the point."""
         return f"{self.message} ({len(self.path) - 1} steps, {self.evaluations} evaluations)\n  {self.point}"
+
+
+def _steps(path: Sequence[Mapping[str, float]], names: Sequence[str], point: SpecialPoint) -> Iterable[Cells]:
+    """Return a row for each step of a path."""
+    units = unit_of(point.model)
+    return ((n, units[n], np.array([step[n] for step in path])) for n in names)

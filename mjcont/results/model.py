@@ -58,9 +58,10 @@ class Model(Equations):
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables, by default all, for states (m, nq), shape (m, number of names)."""
 
-    def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return all observables for states (m, nq), a parameter having a value of its own in each (m,)."""
-        return self.measure(states, [{**values, name: v} for v in column.tolist()])
+    def measure_along(self, states: Array, values: Values, driven: Mapping[str, Array]) -> Array:
+        """Return all observables for states (m, nq), parameters having values of their own in each (m,), by name."""
+        rows = [{**values, **{n: float(column[i]) for n, column in driven.items()}} for i in range(len(states))]
+        return self.measure(states, rows)
 
     def rescaled(self, sizes: Array, *, grow: bool = False) -> Self | None:
         """Return this model with a scale that fits sizes of its state (n,); None where it fits or was given.

@@ -12,10 +12,11 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.outside.escapes import for_picture
 from mjcont.results.branch import Branch
 from mjcont.results.points import SpecialPoint, show
+from mjcont.results.text import Shown
 
 
-@dataclass(frozen=True, slots=True)
-class StiffnessStudy:
+@dataclass(frozen=True, slots=True, repr=False)
+class StiffnessStudy(Shown):
     """How a special point converges as bushes stiffen.
 
     Attributes

@@ -1,15 +1,23 @@
-"""Readable text: tables of parameters, what `mjcont inspect` prints, and how results show themselves."""
+"""How results show themselves: summaries, tables of parameters, and rows as CSV and as frames."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from html import escape
+from pathlib import Path
 from typing import Any
 
-from mjcont.errors import ParameterError
+import numpy as np
+
+from mjcont.errors import MjcontError, ParameterError
+from mjcont.outside.csvfiles import write_table
 from mjcont.results.quantities import Parameter
+from mjcont.results.units import displayed
 
 _LONGEST = 160
+# a column's name, its unit, and its cells: an array of numbers, or words
+Cells = tuple[str, str, Sequence[Any] | np.ndarray]
 
 
 def table(rows: list[list[str]]) -> list[str]:
@@ -62,6 +70,46 @@ class Shown:
         for each in ("columns", "fixed", "parameters", "observables"):
             found += [n for n in getattr(self, each, ()) if n not in found]
         return found
+
+
+class Tabular:
+    """A result that is a table, as CSV for others and as a frame: `_cells` says what is in it."""
+
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        """Return the columns, SI and radians; `degrees` is whether ratios of angles are shown in degrees."""
+        raise NotImplementedError
+
+    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
+        """Write the table as CSV with units in the header, angles in degrees unless told otherwise."""
+        return write_cells(path, self._cells(degrees), degrees)
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas DataFrame, SI and radians; `attrs["units"]` has the unit of each column.
+
+        Raises
+        ------
+        MjcontError
+            If pandas is not installed.
+        """
+        try:
+            import pandas as pd
+        except ImportError as error:
+            raise MjcontError("to_dataframe needs pandas: pip install 'mjcont[notebook]'") from error
+        cells = list(self._cells(False))
+        frame = pd.DataFrame({name: values for name, _, values in cells})
+        frame.attrs["units"] = {name: unit for name, unit, _ in cells}
+        return frame
+
+
+def write_cells(path: str | Path, columns: Iterable[Cells], degrees: bool = True) -> Path:
+    """Write columns as CSV, their units as shown; what is no number is an empty cell."""
+    heads, cells = [], []
+    for name, unit, values in columns:
+        shown, factor = displayed(unit, (), degrees)
+        heads.append(f"{name} [{shown}]" if shown not in ("", "1") else name)
+        turned = (values if factor == 1.0 else values * factor).tolist() if isinstance(values, np.ndarray) else values
+        cells.append(["" if isinstance(v, float) and math.isnan(v) else v for v in turned])
+    return write_table(path, heads, zip(*cells, strict=True))
 
 
 def check_kind(what: str, given: Any, kind: type, advice: str) -> None:

@@ -124,6 +124,14 @@ def displayed(unit: str, wished: Sequence[str] = (), degrees: bool = True) -> tu
     return ("deg", 180.0 / math.pi) if unit == "rad" and degrees else (unit, 1.0)
 
 
+def per(top: str, bottom: str, degrees: bool = True) -> tuple[str, float]:
+    """Return the unit in which something in `top` per `bottom` is shown, and the factor: "N/kg", "deg/(N/m)", "1/m"."""
+    (top, upper), (bottom, lower) = displayed(top, (), degrees), displayed(bottom, (), degrees)
+    if bottom in ("", "1"):
+        return "" if top == "1" else top, upper
+    return f"{top or '1'}/{f'({bottom})' if any(c in bottom for c in '/* ') else bottom}", upper / lower
+
+
 def check_wished(wished: Sequence[str]) -> None:
     """Raise a ParameterError unless all units are known."""
     for unit in wished:

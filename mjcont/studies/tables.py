@@ -292,8 +292,11 @@ HISTORY = Kind("histories", "A motion in time (`simulate`).", {
     "name": _NAME,
     "inputs": Key(_inputs, "Parameters that vary with time: a number, a table or a [shape](#inputs).", {},
                   otherwise="none"),
-    "duration": Key(k.positive("s"), "How long.", 10.0),
-    "start": _START, "keyframe": _KEYFRAME, "state": _STATE, "from": _FROM,
+    "duration": Key(k.positive("s"), "How long.", otherwise="10, or ten periods of an orbit"),
+    "start": _START, "keyframe": _KEYFRAME, "state": _STATE,
+    "from": Key(r.reference("search", "branch", "locus", "path", "cycles", "response"),
+                "A point of an earlier result, such as `\"found:E1\"`, in place of start, keyframe and state; an "
+                "orbit, such as `\"response:PD1\"`, under its forcing.", otherwise="none"),
     "timestep": Key(k.positive("s"), "The step; with `tol` the first and largest.", otherwise="the model's"),
     "integrator": Key(k.choice("integrator", *INTEGRATORS, "model"),
                       "One of " + ", ".join(f'`"{name}"`' for name in INTEGRATORS) + ", or `\"model\"`: its own.",

@@ -3,9 +3,11 @@
 import os
 import subprocess
 import sys
+from itertools import product
 
 import numpy as np
 import pytest
+from problems.marks import long
 
 import mjcont as mc
 from mjcont.drawing.picture import picture
@@ -248,8 +250,9 @@ def rectangles(ax):
     return [(b.min, b.max) for b in boxes]
 
 
-@pytest.mark.parametrize("model", GEARS)
-@pytest.mark.parametrize("keyframe", KEYFRAMES)
+@pytest.mark.parametrize(("model", "keyframe"), [
+    *zip(GEARS, KEYFRAMES[::3], strict=True), *(long(g, k) for g, k in product(GEARS, KEYFRAMES[1:3]))
+])
 def test_labels_do_not_overlap_and_stay_inside(model, keyframe):
     ax = draw(mc.Mechanism.from_xml(model), keyframe)
     boxes = rectangles(ax)

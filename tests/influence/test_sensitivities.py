@@ -147,6 +147,7 @@ def test_overcentres_fold_and_cusp_move_with_12_parameters_as_points_solved_agai
     check(point(), names)
 
 
+@pytest.mark.long
 def test_the_gears_cusp_moves_with_8_parameters_as_points_solved_again_do():
     check(gear_cusp(), ["m_1", "k_j", "k_sp", "l_us", "gravity_angle", "load_factor", *GEOMETRY[1:3]])
 

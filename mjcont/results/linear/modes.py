@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
-from mjcont.outside import csvfiles
 from mjcont.results.histories import History
 from mjcont.results.model import Model, provenance
 from mjcont.results.points import Column, Point
-from mjcont.results.text import table
+from mjcont.results.text import Cells, Shown, Tabular, table
 
 OSCILLATES, DECAYS, GROWS, FLUTTERS, NEUTRAL = "oscillates", "decays", "grows", "flutters", "neutral"
 # of a model's scale, the largest entry of a shape where it is shown
@@ -24,8 +22,8 @@ _SHOWN = 0.2
 _REST = 1e-300
 
 
-@dataclass(frozen=True, slots=True)
-class Mode:
+@dataclass(frozen=True, slots=True, repr=False)
+class Mode(Shown):
     """One mode: x(t) = x0 + a Re(shape exp(s t)).
 
     Attributes
@@ -80,6 +78,12 @@ class Mode:
             return FLUTTERS if self.omega > 0 else GROWS
         return OSCILLATES if self.omega > 0 else DECAYS
 
+    def __str__(self) -> str:
+        """Return what the table says of it."""
+        rate = f"{self.frequency:.6g} Hz, damping ratio {self.damping_ratio:.4g}" if self.omega else \
+            f"{self.growth:.4g} 1/s"
+        return f"mode {self.number}: {rate}, {self.kind}; moves most: {', '.join(_largest(self))}"
+
     def displaced(self, phase: float = 0.0, amplitude: float | None = None) -> Array:
         """Return the state (nq,) at a phase in rad of the motion, the growth or decay left out.
 
@@ -117,8 +121,8 @@ class Mode:
                        model.name, model, provenance(model), values)
 
 
-@dataclass(frozen=True, slots=True)
-class Modes:
+@dataclass(frozen=True, slots=True, repr=False)
+class Modes(Tabular, Shown):
     """The modes of an equilibrium, slowest first.
 
     Attributes
@@ -180,14 +184,17 @@ class Modes:
         """Eigenvalues in 1/s, (m,) complex."""
         return np.array([m.eigenvalue for m in self.modes])
 
-    def to_csv(self, path: str | Path) -> Path:
-        """Write a row a mode: what the table says, and the shape's real and imaginary parts; SI and radians."""
-        names = coordinates(self.point.model)
-        head = ["mode", "kind", "frequency [Hz]", "omega [rad/s]", "natural omega [rad/s]", "damping ratio",
-                "growth [1/s]", *(f"{part} {n}" for n in names for part in ("re", "im"))]
-        rows = [[m.number, m.kind, m.frequency, m.omega, m.natural_omega, m.damping_ratio, m.growth,
-                 *(float(v) for z in m.shape for v in (z.real, z.imag))] for m in self.modes]
-        return csvfiles.write_table(path, head, rows)
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        yield "mode", "", [m.number for m in self]
+        yield "kind", "", [m.kind for m in self]
+        yield "frequency", "Hz", self.frequencies
+        yield "omega", "rad/s", [m.omega for m in self]
+        yield "natural omega", "rad/s", [m.natural_omega for m in self]
+        yield "damping ratio", "", self.damping_ratios
+        yield "growth", "1/s", [m.growth for m in self]
+        for name, entries in zip(coordinates(self.point.model), self.shapes.T, strict=True):
+            yield f"re {name}", "", entries.real
+            yield f"im {name}", "", entries.imag
 
     def plot(self, numbers: Sequence[int] | None = None, *, cols: int = 4, plane: str | None = None) -> Any:
         """Draw poses of some modes (default the first six) at both ends of their swing over rest; return the figure.

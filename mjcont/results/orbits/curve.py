@@ -23,7 +23,7 @@ CYCLES, RESPONSES, MODES, BACKBONE = "cycles", "responses", "modes", "backbone"
 _SHOWN = 3
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class OrbitPoint(Point):
     """A point of a curve of orbits: `eigenvalues` are its multipliers, `state` that at time zero.
 
@@ -37,7 +37,7 @@ class OrbitPoint(Point):
         return f"{self.stability} ({self.n_unstable} unstable): {_shown(self, [])}"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class SpecialOrbit(SpecialPoint):
     """A special point of a curve of orbits."""
 

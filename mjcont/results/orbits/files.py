@@ -32,6 +32,7 @@ import numpy as np
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.path import Path
 from mjcont.numerics.orbits.scheme import SCHEMES, scheme
+from mjcont.outside.hdf5text import Attributes
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
 from mjcont.results.files import frozen, save_hdf5
@@ -52,10 +53,10 @@ def save(branch: CycleBranch, path: str | File) -> File:
 def write_cycles(branch: CycleBranch, f: h5py.Group) -> None:
     """Write a curve of orbits into a file or a group of one."""
     write_branch(branch, f)
-    f.attrs["forcing"] = json.dumps(branch.forcing)
+    Attributes(f)["forcing"] = json.dumps(branch.forcing)
     orbits, g = branch.orbits, f.create_group(GROUP)
     first = orbits[0]
-    g.attrs.update(
+    Attributes(g).update(
         scheme=first.path.scheme.name, degree=first.path.scheme.degree, order=first.path.order,
         names=json.dumps(list(first.reading.names)), units=json.dumps(list(first.reading.units)),
         activated=first.activated,
@@ -77,7 +78,7 @@ def read_cycles(f: h5py.File, problem: Model | None) -> CycleBranch:
     """Return the curve of orbits in a file."""
     branch = read_branch(f, problem)
     multipliers = [frozen(row) for row in f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]]
-    forcing = json.loads(f.attrs["forcing"])
+    forcing = json.loads(Attributes(f)["forcing"])
     orbits = _read_orbits(f[GROUP], branch, multipliers, forcing)
     return with_orbits(replace(branch, spectra=Spectra(multipliers)), orbits, forcing)
 
@@ -90,14 +91,14 @@ def _read_orbits(g: h5py.Group, branch: Branch, multipliers: Sequence[Array], fo
     ValueError
         If arrays do not fit each other.
     """
-    name, degree, order = str(g.attrs["scheme"]), int(g.attrs["degree"]), int(g.attrs["order"])
+    name, degree, order = str(Attributes(g)["scheme"]), int(Attributes(g)["degree"]), int(Attributes(g)["order"])
     if name not in SCHEMES or not 1 <= degree <= g["rates"].shape[1] or order not in (1, 2):
         raise ValueError("its orbits are polynomials of a kind that is not known")
-    activated = int(g.attrs.get("activated", 0))  # files of before had none
+    activated = int(Attributes(g).get("activated", 0))  # files of before had none
     if activated and (order != 1 or not 0 < activated < g["states"].shape[1]):
         raise ValueError("its orbits have activations that do not fit their states")
     rule = scheme(name, degree)
-    names, units = (tuple(json.loads(g.attrs[key])) for key in ("names", "units"))
+    names, units = (tuple(json.loads(Attributes(g)[key])) for key in ("names", "units"))
     a = {key: frozen(g[key][()]) for key in ("intervals", "period", "error", "mesh", "states", "rates", "points",
                                              "ends", "resolved", "trivial", "shift")}
     count, k = len(branch), int(a["intervals"].sum())

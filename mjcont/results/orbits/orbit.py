@@ -16,13 +16,14 @@ from mjcont.results.model import Model, provenance
 from mjcont.results.orbits.readings import Reading, along, readings
 from mjcont.results.points import Column
 from mjcont.results.quantities import column_of
+from mjcont.results.text import Shown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Orbit:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Orbit(Shown):
     """One period of a periodic motion.
 
     Attributes
