@@ -16,18 +16,25 @@ import numpy as np
 
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import start_from
-from mjcont.errors import BoundsError, MjcontError, ParameterError, unknown_name
+from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError, unknown_name
 from mjcont.numerics.equations.free import Free
+from mjcont.numerics.equations.system import System
+from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.conserved import ENERGY, FREQUENCY
+from mjcont.numerics.orbits.follow import laid
+from mjcont.numerics.orbits.switch import departures, system_at
 from mjcont.oscillation.conserving import CHOICES, Conserving, without_losses
 from mjcont.oscillation.families import LinearMode, in_energy, in_frequency, linear_modes
 from mjcont.oscillation.flows import ModelFlow
-from mjcont.oscillation.onward import bounded, entries_at, flow_at, orbit_at
-from mjcont.oscillation.walks import Stop, flow_of, read_options, run
+from mjcont.oscillation.onward import entries_at, flow_at, orbit_at
+from mjcont.oscillation.walks import Entry, Options, Stop, flow_of, read_options, run
 from mjcont.results.model import Model, check_bounds
 from mjcont.results.orbits import MODES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point
 from mjcont.vectorfield import VectorField
+
+# energies within which a curve in frequency is entered, times that of its orbit
+_LEAST, _MOST = 1e-2, 1e2
 
 
 @np.errstate(all="ignore")
@@ -51,8 +58,8 @@ def continue_modes(
     origin : model or orbit
         A mechanism, or a VectorField that keeps an energy: the family begins at rest, at an equilibrium. What resists
         the motion is left out, and named in the branch's notes; loads stay at their values, unless they have no
-        potential. A BPC or PD of such a curve: the other branch, or the orbits of twice the period (internal
-        resonances). Any other orbit of one: its own curve.
+        potential. A BPC, PD or IR of such a curve: the other branch, or orbits of two, three or four periods, where
+        modes resonate. Any other orbit of one: its own curve.
     parameter : {"energy", "frequency"}
         What varies: the energy beyond that at rest (J), or 1 / period (Hz).
     bounds : (low, high)
@@ -153,30 +160,82 @@ def _from_orbit(
         raise MjcontError("the orbit loses energy or is driven: modes begin at a model, or at an orbit of a curve of "
                           "modes")
     read = read_options(motion, {"scheme": orbit.path.scheme.name, "degree": orbit.path.scheme.degree, **options})
-    flow = motion.chosen(parameter)
-    twice = parameter == FREQUENCY and isinstance(point, SpecialOrbit) and point.kind == "PD"
-    value = float(orbit.energy or 0.0) if parameter == ENERGY else orbit.frequency
-    turned = _told_by(point, orbit, flow, value)
+    flow = motion.chosen(ENERGY)
+    turned = _in_terms_of_energy(point, orbit, flow)
     if bounds is None and not (isinstance(point, SpecialOrbit) and parameter in point.free):
         raise BoundsError(f"give the range of the {parameter}: bounds=(low, high)")
-    free = bounded(flow, turned, parameter, bounds)
-    system, entries, origin = entries_at(flow, turned, free)
-    if twice:
-        entries = [replace(e, y=np.array([free.coordinate(0.5 * value)])) for e in entries]
-    return run(MODES, system, entries, read, origin, stop, progress)
+    known = point.free.get(parameter) if isinstance(point, SpecialOrbit) else None
+    low, high = check_bounds(motion.chosen(parameter), parameter, bounds if bounds is not None else known)
+    free = Free(parameter, low, high, motion.chosen(parameter).parameter(parameter).unit)
+    own = float(orbit.energy or 0.0)
+    energies = free if parameter == ENERGY else Free(ENERGY, _LEAST * own, _MOST * own)
+    if isinstance(turned, SpecialOrbit) and turned.kind == "IR":
+        system, entries, origin = _several_periods(flow, turned, energies, read)
+    else:
+        system, entries, origin = entries_at(flow, turned, energies)
+    if parameter == FREQUENCY:
+        system, entries = _in_terms_of_frequency(system, entries, free)
+    _check_inside(system, entries, free)
+    return run(MODES, system, entries, read, origin, stop, progress, periods=_periods(turned))
 
 
-def _told_by(
-    point: SpecialOrbit | OrbitPoint | Orbit, orbit: Orbit, flow: Conserving, value: float
+def _periods(point: SpecialOrbit | Orbit) -> int:
+    """Return how many periods the orbits have that begin at a point."""
+    kind = point.kind if isinstance(point, SpecialOrbit) else ""
+    if isinstance(point, SpecialOrbit) and kind == "IR":
+        return int(str(point.coefficients["order"]))
+    return 2 if kind == "PD" else 1
+
+
+def _several_periods(
+    flow: Conserving, point: SpecialOrbit, free: Free, read: Options
+) -> tuple[System, list[Entry], str]:
+    """Return the curve of orbits of several periods that begins at an internal resonance."""
+    orbit, order = orbit_at(point), _periods(point)
+    system, x, y = system_at(flow, orbit.path, orbit.shift, dict(orbit.parameters), (free,))
+    found = departures(flow, orbit.path, orbit.shift, system, x, y, order, read.settings)
+    if not found:
+        raise StartError(f"{point.label}: no orbits of {order} periods were found beside it")
+    entries = [Entry(sign, d.x, d.y, d.row) for sign, d in zip((-1.0, 1.0), found, strict=False)]
+    return found[0].system, entries, f"orbits of {order} periods at {point.label}"
+
+
+def _in_terms_of_frequency(system: System, entries: Sequence[Entry], free: Free) -> tuple[System, list[Entry]]:
+    """Return a curve in energy, and where it is entered, as one in frequency."""
+    orbits, others = system.problem, list[Entry]()
+    assert isinstance(orbits, Orbits) and isinstance(orbits.flow, Conserving)
+    flow = orbits.flow.chosen(FREQUENCY)
+    paths = [orbits.path(e.x, {}) for e in entries]
+    new = laid(flow, paths[0], orbits.shift)
+    for e, path in zip(entries, paths, strict=True):
+        row = None if e.row is None else np.append(e.row[:-1] * orbits.state_scale / new.state_scale, 0.0)
+        row = None if row is None else row / np.linalg.norm(row)
+        others.append(Entry(e.direction, new.joined(path), np.array([free.coordinate(1.0 / path.period)]), row))
+    values = {**flow.theirs(system.base), FREQUENCY: 1.0 / paths[0].period}
+    values.pop(ENERGY, None)
+    return System(new, values, [free]), others
+
+
+def _check_inside(system: System, entries: Sequence[Entry], free: Free) -> None:
+    """Raise a BoundsError unless a curve begins within its bounds."""
+    value = free.value(float(entries[0].y[0])) if free.log else float(entries[0].y[0]) * (free.high - free.low)
+    slack = 1e-9 * abs(value)
+    if not free.low - slack <= value <= free.high + slack:
+        raise BoundsError(f"the curve begins at {free.name} = {free.show(value)}, outside the bounds "
+                          f"{free.show(free.low)} .. {free.show(free.high)}")
+
+
+def _in_terms_of_energy(
+    point: SpecialOrbit | OrbitPoint | Orbit, orbit: Orbit, flow: Conserving
 ) -> SpecialOrbit | Orbit:
-    """Return the point with the number by which the flow tells orbits apart."""
-    own = replace(orbit, parameters={**flow.theirs(orbit.constants()), flow.chosen_by: value}, forcing=flow.record())
+    """Return the point as one of a curve in energy."""
+    parameters = {**flow.theirs(orbit.constants()), ENERGY: float(orbit.energy or 0.0)}
+    own = replace(orbit, parameters=parameters, forcing=flow.record())
     if not isinstance(point, SpecialOrbit):
         return own
     vectors = dict(point.vectors)
-    if "tangent" in vectors and flow.chosen_by not in point.free:
+    if "tangent" in vectors and ENERGY not in point.free:
         tangent = np.array(vectors["tangent"])
         slope = flow.energy_slopes(orbit.path.s[:1], own.parameters)[0]
-        along = float(slope @ tangent[: flow.d]) if flow.chosen_by == ENERGY else -tangent[-2] / orbit.period**2
-        vectors["tangent"] = np.append(tangent[:-1], along)
+        vectors["tangent"] = np.append(tangent[:-1], float(slope @ tangent[: flow.d]))
     return replace(point, orbit=own, vectors=vectors)

@@ -157,8 +157,9 @@ def run(
     progress: Progress | None = None,
     notes: Sequence[str] = (),
     special: Special | None = None,
+    periods: int = 1,
 ) -> CycleBranch:
-    """Walk from each entry and collect the curve; `special` where it is one of special orbits."""
+    """Walk from each entry and collect the curve; `special` where it is one of special orbits, `periods` of several."""
     traces: list[Trace] = []
     report = reporter(progress)
     for entry in entries:
@@ -171,7 +172,7 @@ def run(
             if isinstance(first, Refused):
                 traces.append(Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
-            follower = Follower(options.settings, options.meshes, point_stop(stop))
+            follower = Follower(options.settings, options.meshes, point_stop(stop), periods=periods)
             if special is not None:
                 follower = replace(follower, detectors=special.detectors, held=special.held, end_at=special.end_at)
             traces.append(trace_orbits(follower, system, first, report))

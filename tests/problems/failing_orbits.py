@@ -27,6 +27,7 @@ from mjcont.numerics.orbits import (
     passing,
     points,
     quadrature,
+    resonances,
     switch,
 )
 from mjcont.numerics.orbits.flow import Flow, Rates
@@ -153,6 +154,23 @@ class BadMotion:
         m = conserved.own_multipliers(orbits, linear.blocks, self.path.period, s, s)
         assert len(m.values) == len(m.own) + 2 == orbits.flow.d
 
+    @property
+    def kept_system(self):
+        return System(self.keeping, self.keeping.flow.values(), [Free("p", -1.0, 1.0)])
+
+    @property
+    def kept(self):
+        system, x = self.kept_system, self.keeping.joined(self.path)
+        local = system.local(x, system.start_y())
+        tangent = np.append(np.zeros(self.keeping.n), 1.0)
+        return CurvePoint(x, system.start_y(), tangent, 0.0, local, system.jacobian(local, system.start_y()))
+
+    def look_at_kept(self, detector):
+        made, old, new = detector(self.kept_system, self.settings), self.kept, self.kept
+        new.s = 1e-6
+        made.crossed(old, new)
+        made.locate(old, new, [])
+
     def in_quadrature(self):
         made = quadrature.InQuadrature(
             lambda u, tau, p: self.flow.rates(u, tau, p)[:, 0], lambda tau, p: 2.0 * np.pi * tau, 1.0
@@ -254,6 +272,13 @@ CASES = {
     "points.error_at": lambda b: points.error_at(b.point()),
     "points.unstable": lambda b: points.unstable(points.multipliers_at(b.point())),
     "quadrature.InQuadrature": BadMotion.in_quadrature,
+    "resonances.angles": lambda b: resonances.angles(b.kept),
+    "resonances.energy_slope": lambda b: resonances.energy_slope(b.kept),
+    "resonances.EnergyTurns": lambda b: b.look_at_kept(resonances.EnergyTurns),
+    "resonances.InternalResonance": lambda b: b.look_at_kept(resonances.InternalResonance),
+    "switch.departures": lambda b: switch.departures(
+        b.flow, b.path, b.shift, b.system, b.x, b.y, 3, b.settings
+    ),
     "switch.doubled": lambda b: switch.doubled(b.flow, b.path, b.shift, b.system, b.x, b.y),
     "switch.crossing": lambda b: switch.crossing(b.system, b.x, b.y, b.point().tangent),
     "switch.system_at": lambda b: switch.system_at(b.flow, b.path, b.shift, b.values, tuple(b.system.free)),
