@@ -46,7 +46,7 @@ def make_orbit(point: CurvePoint) -> Orbit:
     flow, path, m, values = flow_at(point), path_at(point), multipliers_at(point), point.local.values
     return Orbit(
         path, flow.reading(path, values), dict(values), flow.units(), m.values, m.resolved, m.trivial,
-        error_at(point), flow.model.name, flow.model, orbits_at(point).shift, flow.record(), flow.activated,
+        error_at(point), flow.model.name, flow.model, orbits_at(point).shift, flow.record(), flow.activated, flow.chart,
     )
 
 
@@ -135,7 +135,7 @@ def collect(
         kind=kind,
         name=flow.model.name,
         columns=_columns(flow, orbits, system),
-        states=_frozen(np.array([flow.state(o.path.s[0]) for o in orbits])),
+        states=_frozen(np.array([flow_at(p).state(path_at(p).s[0]) for p, _ in rows])),
         state_labels=flow.model.state_labels,
         spectra=Spectra([o.multipliers for o in orbits]),
         stability=_frozen(np.array(words, dtype="U8")),

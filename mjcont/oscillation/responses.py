@@ -82,7 +82,7 @@ def continue_response(
     low, high = _range(flow, parameter, bounds, values)
     unit = flow.parameter(parameter).unit
     x, _ = start_from(problem, None, keyframe, start.state if isinstance(start, Point) and state is None else state)
-    orbits, x = _first(flow, x, values, read)
+    orbits, x = _first(flow.about(x), x, values, read)
     system = System(orbits, values, [Free(parameter, low, high, unit)])
     entries = [Entry(sign, x, system.start_y(), None) for sign in check_direction(direction)]
     return run(RESPONSES, system, entries, read, "the motion settled from its start", stop, progress)
