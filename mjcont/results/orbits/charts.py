@@ -119,13 +119,15 @@ class Chart:
         if not (largest > NEAR_EDGE).any():
             return self
         rotations = self.rotations(xi)
-        other = replace(self, reference=_unit(rotations.mean(axis=0)))
-        turned = _product(_inverse(other.reference), rotations)
-        reached = np.linalg.norm(_logarithm(turned), axis=2).max(axis=0)
+        mean = rotations.mean(axis=0)
+        tried = np.concatenate([rotations, _unit(np.where(mean.any(axis=1)[:, None], mean, self.reference))[None]])
+        cosines = np.einsum("kri,jri->kjr", tried, rotations).min(axis=1)  # of half the largest angle from each
+        best, joints = cosines.argmax(axis=0), np.arange(len(largest))
+        reached = 2.0 * np.arccos(np.clip(cosines[best, joints], -1.0, 1.0))
         better = (largest > NEAR_EDGE) & (reached < _BETTER * largest)
         if not better.any():
             return self
-        return replace(self, reference=np.where(better[:, None], other.reference, self.reference))
+        return replace(self, reference=np.where(better[:, None], tried[best, joints], self.reference))
 
     def same(self, other: Chart) -> bool:
         """Whether another chart has the same reference."""
