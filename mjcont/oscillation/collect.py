@@ -50,6 +50,7 @@ def make_orbit(point: CurvePoint) -> Orbit:
         path, flow.reading(path, values), dict(values), flow.units(), m.values, m.resolved, m.trivial,
         error_at(point), flow.model.name, flow.model, orbits_at(point).shift, flow.record(), flow.activated,
         float(flow.energies(path.s[:1], values)[0]) if isinstance(flow, Conserving) else None,
+        flow.chart,
     )
 
 
@@ -137,7 +138,7 @@ def collect(
         kind=kind,
         name=flow.model.name,
         columns=_columns(flow, orbits, system),
-        states=_frozen(np.array([flow.state(o.path.s[0]) for o in orbits])),
+        states=_frozen(np.array([flow_at(p).state(path_at(p).s[0]) for p, _ in rows])),
         state_labels=flow.model.state_labels,
         spectra=Spectra([o.multipliers for o in orbits]),
         stability=_frozen(np.array(words, dtype="U8")),

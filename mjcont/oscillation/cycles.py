@@ -90,7 +90,7 @@ def continue_cycles(
     if origin.kind != "HB" and origin.curve != "HB locus":
         raise MjcontError(f"{origin.label or 'the point'} is of kind {origin.kind or 'regular'}: limit cycles begin at "
                           "points of kind HB")
-    flow = flow_of(origin.model)
+    flow = flow_of(origin.model).about(origin.state)
     read = read_options(flow, options)
     name = parameter if parameter is not None else next(iter(origin.free))
     low, high = check_bounds(flow, name, bounds if bounds is not None else origin.free.get(name))
@@ -155,6 +155,7 @@ def _from_motion(
     if not low <= values[parameter] <= high:
         raise BoundsError(f"the start has {parameter} = {free.show(values[parameter])}, outside the bounds "
                           f"{free.show(low)} .. {free.show(high)}")
+    flow = flow.about(state)
     path, shift = _cycle(flow, state, values, read, duration)
     orbits = laid(flow, path, shift)
     system = System(orbits, values, [free])
@@ -182,6 +183,7 @@ def find_cycle(
     flow = _unforced(problem)
     read = read_options(flow, options)
     state, values, duration = _motion(problem, start, keyframe, state)
+    flow = flow.about(state)
     path, shift = _cycle(flow, state, values, read, duration)
     point = orbit_near(flow, path, values, shift, read.meshes)
     if point is None:

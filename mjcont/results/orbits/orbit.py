@@ -14,6 +14,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.path import Path
 from mjcont.results.histories import History
 from mjcont.results.model import Model, provenance
+from mjcont.results.orbits.charts import Chart
 from mjcont.results.orbits.readings import Reading, along, readings
 from mjcont.results.points import Column
 from mjcont.results.quantities import column_of
@@ -42,6 +43,7 @@ class Orbit(Shown):
     forcing : what drives it, as `CycleBranch.forcing`.
     activated : how many of a state's last entries are activations of actuators.
     energy : of a motion that keeps it, beyond that at rest; None of others.
+    chart : what the path's coordinates are where a mechanism has ball or free joints.
     """
 
     path: Path
@@ -58,6 +60,7 @@ class Orbit(Shown):
     forcing: Mapping[str, Any] = field(repr=False, default_factory=dict)
     activated: int = field(repr=False, default=0)
     energy: float | None = None
+    chart: Chart | None = field(repr=False, default=None)
 
     @property
     def period(self) -> float:
@@ -119,14 +122,20 @@ class Orbit(Shown):
         if self.activated:
             c = (c - self.activated) // 2
         halves = self.path.order == 2 or self.activated
-        return found[:, :c], found[:, c : 2 * c] if halves else self.path.rates(places)
+        states, rates = found[:, :c], found[:, c : 2 * c] if halves else self.path.rates(places)
+        return (states, rates) if self.chart is None else (self.chart.poses(states), self.chart.speeds(states, rates))
 
     @checked
     def at(self, time: float) -> Array:
         """Return the state at a time, taken into the period: u, or qpos, qvel and activations one after the other."""
         turns, tau = divmod(time / self.period, 1.0)
         state: Array = self.path.states(np.array([tau]))[0]
-        return state + turns * self.shift if len(self.shift) else state
+        state = state + turns * self.shift if len(self.shift) else state
+        if self.chart is None:
+            return state
+        n = (len(state) - self.activated) // 2
+        xi, rates = state[None, :n], state[None, n : 2 * n]
+        return np.concatenate([self.chart.poses(xi)[0], self.chart.speeds(xi, rates)[0], state[2 * n :]])
 
     def __getitem__(self, name: str) -> Array:
         """Return an observable at `times`, (n,)."""
