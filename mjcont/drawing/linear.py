@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.drawing.axes import readable
 from mjcont.drawing.picture import picture
 from mjcont.drawing.plotting import COLORS, LINE_STYLES, new_figure, set_panel_title
 from mjcont.drawing.poses import mechanism_of
 from mjcont.drawing.sketch import padded, render
-from mjcont.outside.escapes import for_picture
 
 if TYPE_CHECKING:
     from mjcont.results.linear import Mode, Modes, Transfer
@@ -63,7 +63,7 @@ def draw_transfer(transfer: Transfer, decibels: bool, degrees: bool) -> Any:
         gain, color = factor * transfer.gain(name), COLORS[i % len(COLORS)]
         gain = np.where(gain > 0.0, gain, np.nan)  # a logarithm shows no zero
         top.plot(transfer.frequencies, 20.0 * np.log10(gain) if decibels else gain, color=color, linestyle=style,
-                 label=for_picture(name))
+                 label=readable(name))
         bottom.plot(transfer.frequencies, turn * transfer.phase(name), color=color, linestyle=style)
     top.set_xscale("log")
     units = {transfer.units[n] for n in transfer.outputs}
@@ -79,6 +79,6 @@ def draw_transfer(transfer: Transfer, decibels: bool, degrees: bool) -> Any:
     bottom.set_ylabel(f"phase [{'deg' if degrees else 'rad'}]")
     bottom.set_xlabel("frequency [Hz]")
     top.legend(loc="best")
-    title = f"{for_picture(transfer.input)} swings" + ("" if transfer.stable else ", about an unstable equilibrium")
+    title = f"{readable(transfer.input)} swings" + ("" if transfer.stable else ", about an unstable equilibrium")
     top.set_title(title, loc="left", fontsize=9.5)
     return figure

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont.drawing.axes import show_axis
+from mjcont.drawing.axes import readable, show_axis, spread_ticks
 from mjcont.drawing.loadpaths import draw_path
-from mjcont.drawing.notes import LABEL, place_labels, xy
+from mjcont.drawing.notes import LABEL, LEGEND, POINT, place_labels, place_legend, xy
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS, name_of
@@ -36,6 +36,7 @@ COLORS = ("#1b4f8a", "#c4541a", "#2a7d5f", "#7b3fa0", "#8a6d1b", "#b02a4a", "#4d
 GREY = "#6e6e6e"
 LINE_STYLES: Mapping[str, Any] = {"stable": "-", "unstable": (0, (4.5, 2.0)), "marginal": (0, (1.0, 1.4))}
 MARKERS: Mapping[str, tuple[str, float]] = {k.code: k.marker for k in KINDS.values() if k.marker is not None}
+_MARKER = ("p", 6.0)  # of any other kind
 STYLE: Any = {
     "axes.axisbelow": True,
     "axes.edgecolor": "#333333",
@@ -117,6 +118,7 @@ def plot(
         _ = path[x], path[y]
     # Everything is read before anything is drawn, so that an unknown column leaves the axes as they were.
     data = [_lines(b, x, y, degrees, wrap) for b in branches]
+    own = ax is None
     if ax is None:
         _, ax = new_figure()
     _draw_all(ax, branches, paths, data, (x, y), degrees, labels, colors, _names(branches, legend))
@@ -125,6 +127,7 @@ def plot(
     if title:
         set_panel_title(ax, title)
     _explain(ax, branches, legend, key)
+    place_legend(ax, own)
     place_labels(ax)
     return ax
 
@@ -171,13 +174,13 @@ def _explain(ax: Axes, branches: Iterable[Branch], legend: Sequence[str] | bool 
     if legend is True or key:
         _explain_styles(ax, branches)
     if key:
-        kinds = dict.fromkeys(p.kind for b in branches for p in b.special_points if p.kind in MARKERS)
+        kinds = dict.fromkeys(p.kind for b in branches for p in b.special_points if p.kind != "EP")
         for kind in kinds:
-            shape, size = MARKERS[kind]
+            shape, size = MARKERS.get(kind, _MARKER)
             ax.plot([], [], marker=shape, markersize=size, linestyle="none", color=GREY if kind == "UZ" else "black",
                     label=f"{kind}: {name_of(kind)}")
     if any(not str(line.get_label()).startswith("_") for line in ax.lines):
-        ax.legend(frameon=True, framealpha=0.85, edgecolor="none", fontsize=8.5, loc="best")
+        ax.legend(frameon=True, framealpha=0.85, edgecolor="none", fontsize=8.5, loc="upper right").set_label(LEGEND)
 
 
 def _explain_styles(ax: Axes, branches: Iterable[Branch]) -> None:
@@ -235,8 +238,10 @@ def draw_curve(
         cuts = [first - 1, *sorted(b for b in breaks if first <= b < last), last]
         for a, b in zip(cuts, cuts[1:], strict=False):
             rows = slice(a + 1, b + 1)
+            # gaps hide what is drawn before, so that dashes of two curves that nearly coincide do not fill each other
+            gaps: dict[str, Any] = {} if word == "stable" else {"gapcolor": ax.get_facecolor(), "zorder": 1.9}
             ax.plot(xs[rows], ys[rows], color=color, linestyle=LINE_STYLES[word], linewidth=width, label="_curve",
-                    dash_capstyle="butt", solid_capstyle="butt")
+                    dash_capstyle="butt", solid_capstyle="butt", **gaps)
     if len(xs) == 1:
         ax.plot(xs, ys, color=color, marker=".", linestyle="none", label="_curve")
 
@@ -263,10 +268,10 @@ def mark(
     ax: Axes, x: float, y: float, kind: str = "LP", text: str = "", *, color: str = "black", hollow: bool = False
 ) -> None:
     """Draw one special point with its label, which `place_labels` moves off the curves."""
-    shape, size = MARKERS.get(kind, ("p", 6.0))
+    shape, size = MARKERS.get(kind, _MARKER)
     ink = GREY if kind == "UZ" else "black"
     edge = ink if shape == "x" or hollow else "white"
-    ax.plot([x], [y], marker=shape, markersize=size, linestyle="none", color=ink, zorder=4, label="_point",
+    ax.plot([x], [y], marker=shape, markersize=size, linestyle="none", color=ink, zorder=4, label=POINT, gid=str(size),
             markerfacecolor="white" if hollow else ink, markeredgecolor=edge,
             markeredgewidth=1.3 if edge == ink else 0.6)
     if text:
@@ -301,6 +306,8 @@ def save_figure(figure: Figure, path: str | Path, *, dpi: float = 200.0) -> Path
         try:
             figure.draw_without_rendering()
             for ax in figure.axes:
+                spread_ticks(ax)
+                place_legend(ax)
                 place_labels(ax)
             figure.savefig(picture, format=path.suffix.lower()[1:], dpi=dpi, metadata=metadata)
         except ValueError as error:  # a text between $ is drawn as a formula
@@ -362,7 +369,7 @@ def _names(branches: Sequence[Branch], legend: Sequence[str] | bool | None) -> l
     names = []
     for i, b in enumerate(branches):
         parts = [b.kind] if len({c.kind for c in branches}) > 1 else []
-        parts += [f"{for_picture(n)} = {show(b.fixed[n], _unit(b, n).replace('*', ' '), 4)}" for n in differing]
+        parts += [f"{readable(n)} = {show(b.fixed[n], _unit(b, n), 4).replace('*', ' ')}" for n in differing]
         own = for_picture(b.name) if len({c.name for c in branches}) == len(branches) else f"branch {i + 1}"
         parts = parts or [own]
         names.append(", ".join(parts))
