@@ -167,7 +167,7 @@ def _draw(slices: Sequence[Slice], out: Path) -> None:
         ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30))
         ax.set(xlabel=axis_label("F_ret", "N"), ylabel=axis_label("theta_ov", "deg"))
         set_panel_title(ax, f"(b{i})  {readable('k_j')} = {show(s.k_j, 'N/m', 3)}")
-    add_legend(axes[1, 1], loc="lower left", handlelength=1.4, borderaxespad=0.1)
+    add_legend(axes[1, 1], loc="lower left", handlelength=1.0, handletextpad=0.5, borderaxespad=0.1)
     save_figure(figure, out / "fig08.png")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from mjcont.commands.readers import place
 from mjcont.outside.terminal import Live, live_stream
@@ -36,7 +37,8 @@ def run(args: argparse.Namespace, say: Callable[[str], None]) -> int:
     out = Path(args.out) if args.out else Path(args.file).with_suffix(".gif")
     stream = live_stream()
     live = Live(stream) if stream is not None else None
-    result, on = load(args.file), [load(b) for b in args.on or []]
+    result: Any = load(args.file)  # `animate` says what it takes
+    on: list[Any] = [load(b) for b in args.on or []]
     try:
         animate(
             result, out, args.x, args.y, on=on, fps=args.fps, seconds=args.seconds, size=args.size,

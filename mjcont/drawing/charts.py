@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,10 +11,13 @@ import numpy as np
 from mjcont.drawing.axes import axis_label, label_axes, readable, scaled, show_axis
 from mjcont.errors import ParameterError
 from mjcont.outside.escapes import for_picture
+from mjcont.results.model import units as unit_of
 from mjcont.results.points import Column, SpecialPoint, show
 
 if TYPE_CHECKING:
+    from mjcont.results.certificates import Certificate
     from mjcont.results.histories import History
+    from mjcont.results.search import Equilibria
     from mjcont.results.sensitivities import Sensitivities
     from mjcont.results.stiffness import StiffnessStudy
     from mjcont.results.sweeps import SweepTable
@@ -115,4 +118,54 @@ def draw_stiffness(study: StiffnessStudy, ax: Any) -> Any:
         axes.axvline(study.converged_from, color="0.6", linestyle=":", linewidth=1.0)
     show_axis(axes.xaxis, study.parameter, study.locus.unit(study.parameter))
     axes.set_ylabel(f"relative deviation of {readable(study.quantity)} from its limit")
+    return axes
+
+
+def draw_steps(steps: Sequence[Mapping[str, float]], x: str, y: str, units: Mapping[str, str], ax: Any) -> Any:
+    """Draw the way of a special point that was moved: y against x, its end marked."""
+    from mjcont.drawing.plotting import COLORS, new_figure
+
+    axes = new_figure()[1] if ax is None else ax
+    xs, ys = (scaled(np.array([step[n] for step in steps]), units[n]) for n in (x, y))
+    axes.plot(xs, ys, ".-", color=COLORS[0], label="_way")
+    axes.plot(xs[-1:], ys[-1:], "o", color=COLORS[1], markersize=7.0, markeredgecolor="white", label="_end")
+    label_axes(axes, (x, units[x]), (y, units[y]))
+    return axes
+
+
+def draw_equilibria(found: Equilibria, x: str, y: str, ax: Any) -> Any:
+    """Draw equilibria by two of their columns, the stable ones filled, each with its label."""
+    from mjcont.drawing.notes import LEGEND, place_labels, place_legend
+    from mjcont.drawing.plotting import COLORS, mark, new_figure
+
+    axes = new_figure()[1] if ax is None else ax
+    units = {**unit_of(found.problem), "energy": "J"}
+    xs, ys = (scaled(found.column(n), units[n]) for n in (x, y))
+    for p, at, height in zip(found, xs, ys, strict=True):
+        mark(axes, float(at), float(height), "EQ", p.label, hollow=p.stability != "stable")
+    for word, face in (("stable", "black"), ("not stable", "white")):
+        axes.plot([], [], "p", color="black", markerfacecolor=face, label=word)
+    axes.margins(0.15)
+    label_axes(axes, (x, units[x]), (y, units[y]))
+    axes.legend(frameon=True, framealpha=0.85, edgecolor=COLORS[-1], fontsize=8.5).set_label(LEGEND)
+    place_legend(axes, ax is None)
+    place_labels(axes)
+    return axes
+
+
+def draw_certificate(found: Certificate, ax: Any) -> Any:
+    """Draw growth rates of simulated motions beside real parts of the critical eigenvalues, by the first parameter."""
+    from mjcont.drawing.plotting import COLORS, new_figure
+
+    axes = new_figure()[1] if ax is None else ax
+    (name, unit), *_ = found.units.items()
+    at = scaled(np.array([c.parameters[name] for c in found]), unit)
+    axes.plot(at, [c.eigenvalue.real for c in found], "o", markerfacecolor="none", color=COLORS[0], markersize=8.0,
+              label="Re s of the critical eigenvalue")
+    for k, verdict in enumerate(dict.fromkeys(c.verdict for c in found), 1):
+        those = [i for i, c in enumerate(found) if c.verdict == verdict]
+        axes.plot(at[those], [found.checks[i].rate for i in those], "x", color=COLORS[k], label=f"simulated: {verdict}")
+    axes.axhline(0.0, color="#333333", linewidth=0.8)
+    label_axes(axes, (name, unit), ("rate", "1/s"))
+    axes.legend(loc="best", fontsize=7.5)
     return axes

@@ -15,19 +15,19 @@ from mjcont.drawing.poses import mechanism_of
 from mjcont.drawing.sketch import padded, render
 
 if TYPE_CHECKING:
-    from mjcont.results.linear import Mode, Modes, Transfer
+    from mjcont.results.linear import Mode, Transfer
 
-_TIGHT, _WIDE, _FIRST = 0.05, 2.6, 6
+_TIGHT, _WIDE = 0.05, 2.6
 _BACK, _FRONT = "#b9c6d6", "#b8b8b8"
 
 
-def draw_modes(modes: Modes, numbers: Sequence[int] | None, cols: int, plane: str | None) -> Any:
+def draw_modes(chosen: Sequence[Mode], cols: int, plane: str | None) -> Any:
     """Draw a panel a mode: rest in grey, the other end of its swing in blue behind it, the mode on top."""
-    chosen = [modes.mode(n) for n in numbers] if numbers is not None else list(modes)[:_FIRST]
-    mechanism, values = mechanism_of(modes.point), modes.point.parameters
+    point = chosen[0].point
+    mechanism, values = mechanism_of(point), point.parameters
     shown = [
         [picture(mechanism, state, plane=plane, inputs=values)
-         for state in (m.displaced(math.pi), modes.point.state, m.displaced())]
+         for state in (m.displaced(math.pi), point.state, m.displaced())]
         for m in chosen
     ]
     boxes = np.array([padded(p, _TIGHT) for panel in shown for p in panel])

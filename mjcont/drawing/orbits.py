@@ -77,11 +77,7 @@ def plot_orbits(
         bar.set_label(axis_label(name, branch.unit(name), degrees), fontsize=_TEXT)
         bar.ax.tick_params(labelsize=_TEXT)
     first = given[0][0]
-    show_axis(ax.xaxis, x, _unit(first, x), (), degrees)
-    if y is not None:
-        show_axis(ax.yaxis, y, _unit(first, y), (), degrees)
-    else:
-        ax.set_ylabel(f"rate of {axis_label(x, _per_second(first.unit(x), degrees), degrees)}")
+    _label(ax, first, x, y, degrees)
     return ax
 
 
@@ -122,6 +118,14 @@ def _values(orbit: Orbit, name: str, times: Array, degrees: bool) -> Array:
         return times
     values = orbit.read(name, times)
     return np.degrees(values) if degrees and orbit.unit(name) == "rad" else values
+
+
+def _label(ax: Axes, orbit: Orbit, x: str, y: str | None, degrees: bool) -> None:
+    show_axis(ax.xaxis, x, _unit(orbit, x), (), degrees)
+    if y is not None:
+        show_axis(ax.yaxis, y, _unit(orbit, y), (), degrees)
+    else:
+        ax.set_ylabel(f"rate of {axis_label(x, _per_second(orbit.unit(x), degrees), degrees)}")
 
 
 def _unit(orbit: Orbit, name: str) -> str:

@@ -6,6 +6,7 @@ by the Agg canvas and need no display.
 
 from __future__ import annotations
 
+import inspect
 import io
 import warnings
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -22,7 +23,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS, name_of
 from mjcont.outside.escapes import for_picture
 from mjcont.outside.saving import write_file
-from mjcont.results.branch import Branch
+from mjcont.results.branch import Branch, Diagram
 from mjcont.results.loadpaths import LoadPath
 from mjcont.results.points import SpecialPoint, show
 from mjcont.results.quantities import column_of
@@ -72,9 +73,9 @@ def set_panel_title(ax: Axes, text: str) -> None:
 
 
 def plot(
-    *curves: Branch | LoadPath | Iterable[Branch | LoadPath],
-    x: str,
-    y: str,
+    *curves: Any,
+    x: str = "",
+    y: str = "",
     ax: Axes | None = None,
     degrees: bool = True,
     labels: bool | Mapping[str, str] = True,
@@ -84,16 +85,17 @@ def plot(
     title: str = "",
     units: str | Sequence[str] = (),
     key: bool = False,
-) -> Axes:
+) -> Any:
     """Draw branches and loci: solid where stable, dashed where unstable, dotted where marginal; loci solid.
 
     Of orbits an observable is drawn by its largest and smallest value. A load path is a broad line with arrows.
 
     Parameters
     ----------
-    *curves : Branch or LoadPath, or a Diagram or list of them
+    *curves : Branch or LoadPath, or a Diagram or list of them; or one result of another kind, drawn as it draws itself.
     x, y : str
         Columns: parameters or observables; `y` of a curve of orbits may be an observable or one of its columns.
+        By default an observable over the parameter.
     ax : matplotlib Axes, optional; default those of a new figure, which is `plot(...).figure`.
     degrees : whether angles are drawn in degrees.
     labels : bool, or mapping such as `{"LP1": "FP2"}` that renames some special points
@@ -110,26 +112,36 @@ def plot(
     NameLookupError
         If a branch has no such column; the message lists those it has.
     """
+    if len(curves) == 1 and hasattr(curves[0], "plot") and not isinstance(curves[0], Branch | LoadPath | Diagram):
+        return _of_its_own(curves[0], x=x, y=y, ax=ax)
     each = each_curve(curves)
     paths = [c for c in each if isinstance(c, LoadPath)]
     branches = [c for c in each if not isinstance(c, LoadPath)]
     _check(branches, legend, bool(paths))
+    x, y = x or each[0].axes[0], y or each[0].axes[1]
     for path in paths:
         _ = path[x], path[y]
     # Everything is read before anything is drawn, so that an unknown column leaves the axes as they were.
     data = [_lines(b, x, y, degrees, wrap) for b in branches]
-    own = ax is None
-    if ax is None:
-        _, ax = new_figure()
+    own, ax = ax is None, ax if ax is not None else new_figure()[1]
     _draw_all(ax, branches, paths, data, (x, y), degrees, labels, colors, _names(branches, legend))
     for axis, name in ((ax.xaxis, x), (ax.yaxis, y)):
         show_axis(axis, name, _common_unit(each, name), units, degrees)
     if title:
         set_panel_title(ax, title)
-    _explain(ax, branches, legend, key)
-    place_legend(ax, own)
-    place_labels(ax)
+    _explain(ax, branches, legend, key, own)
     return ax
+
+
+def _of_its_own(result: Any, **options: Any) -> Any:
+    """Let a result that is no curve draw itself."""
+    given = {name: value for name, value in options.items() if value is not None and value != ""}
+    takes = inspect.signature(result.plot).parameters
+    for name in given:
+        if name not in takes:
+            what, known = type(result).__name__, ", ".join(takes) or "nothing"
+            raise MjcontError(f"a {what} draws itself without '{name}'; {what}.plot takes {known}")
+    return result.plot(**given)
 
 
 def _draw_all(
@@ -167,11 +179,18 @@ def each_curve(curves: Iterable[Any]) -> list[Any]:
     return found
 
 
-def _explain(ax: Axes, branches: Iterable[Branch], legend: Sequence[str] | bool | None, key: bool) -> None:
-    """Add the legend, with the line styles on request, and what markers mean with a key."""
-    if legend is False:
-        return
-    if legend is True or key:
+def _explain(
+    ax: Axes, branches: Iterable[Branch], legend: Sequence[str] | bool | None, key: bool, own: bool
+) -> None:
+    """Add the legend, with the line styles on request, and what markers mean with a key; then place all names."""
+    if legend is not False:
+        _add_legend(ax, branches, legend is True, key)
+    place_legend(ax, own)
+    place_labels(ax)
+
+
+def _add_legend(ax: Axes, branches: Iterable[Branch], styles: bool, key: bool) -> None:
+    if styles or key:
         _explain_styles(ax, branches)
     if key:
         kinds = dict.fromkeys(p.kind for b in branches for p in b.special_points if p.kind != "EP")

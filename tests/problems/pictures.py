@@ -44,7 +44,9 @@ def meeting(figure: Any, gap: float = 0.0) -> list[tuple[str, str]]:
 
 def _ticks(ax: Any) -> list[Any]:
     """The numbers beside axes that are in view."""
-    found = []
+    found: list[Any] = []
+    if not ax.axison:
+        return found
     for axis, view in ((ax.xaxis, ax.get_xlim()), (ax.yaxis, ax.get_ylim())):
         low, high = sorted(view)
         edge = 1e-9 * (high - low)

@@ -121,6 +121,10 @@ class Orbit(Shown):
         """Return an observable at `times`, (n,)."""
         return self.read(name, self.times)
 
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return the names that [...] takes."""
+        return list(self.reading.names)
+
     def read(self, name: str, times: Any) -> Array:
         """Return an observable at times in the period, (m,): the polynomials through its values at the points."""
         tau = np.atleast_1d(np.asarray(times, dtype=float)) / self.period
