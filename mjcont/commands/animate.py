@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from mjcont.commands.common import OK, load, naming
 from mjcont.commands.progress import gauge
@@ -33,7 +34,8 @@ def run(args: argparse.Namespace) -> int:
     from mjcont.drawing.animation import animate
 
     out = Path(args.out) if args.out else Path(args.file).with_suffix(".gif")
-    result, on = load(args.file), [load(b) for b in args.on or []]
+    result: Any = load(args.file)  # `animate` says what it takes
+    on: list[Any] = [load(b) for b in args.on or []]
     with naming(args.file), gauge(str(out)) as shown:
         animate(
             result, out, args.x, args.y, on=on, fps=args.fps, seconds=args.seconds, size=args.size,

@@ -15,7 +15,7 @@ import numpy as np
 
 from mjcont.arguments import checked
 from mjcont.drawing import plotting
-from mjcont.drawing.axes import axis_label
+from mjcont.drawing.axes import show_axis, spread_ticks
 from mjcont.drawing.frames import Frame, Result, Track, default_columns, frames_of, track_of
 from mjcont.drawing.movies import check_movie, write_movie
 from mjcont.drawing.offscreen import Offscreen
@@ -206,6 +206,7 @@ class _Stage:
         self._caption = self._figure.suptitle("Caption", x=0.02, ha="left", fontsize=9.5)
         self._figure.draw_without_rendering()
         self._figure.set_layout_engine("none")
+        spread_ticks(right)
         plotting.place_labels(right)
         self._caption.set_text("")
         left.axis("off")
@@ -240,8 +241,8 @@ def _diagram(
     if not isinstance(result, Branch):
         ax.plot(*line, color=plotting.GREY, linewidth=0.8, alpha=0.6, label="_way", zorder=1.5)
     if not curves:
-        ax.set_xlabel(axis_label(x, _unit(result, x), degrees))
-        ax.set_ylabel(axis_label(y, _unit(result, y), degrees))
+        show_axis(ax.xaxis, x, _unit(result, x), (), degrees)
+        show_axis(ax.yaxis, y, _unit(result, y), (), degrees)
 
 
 def _unit(result: Result, name: str) -> str:

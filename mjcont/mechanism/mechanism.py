@@ -19,7 +19,7 @@ import numpy as np
 
 from mjcont.arguments import checked
 from mjcont.errors import BoundsError, ParameterError, unknown_name
-from mjcont.mechanism.core import ENGINE, copy_model, evaluation_copy, is_constrained, owned_copy
+from mjcont.mechanism.core import copy_model, evaluation_copy, is_constrained, owned_copy
 from mjcont.mechanism.declarations import Declaration
 from mjcont.mechanism.geometry import Geometry, refuse_overlap
 from mjcont.mechanism.observables import Observed, model_observables
@@ -343,10 +343,6 @@ class Mechanism(Shareable, Observed, Held, Model):
     def bushes(self) -> list[str]:
         """Names of the bush actuators."""
         return bush_names(self._core.model)
-
-    def __dir__(self) -> list[str]:
-        """List what a user may use; the rest of the public methods is what the numerics ask for."""
-        return sorted(set(super().__dir__()) - ENGINE)
 
     def __str__(self) -> str:
         """List what can be continued, what can be read, and where to start."""

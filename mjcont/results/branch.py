@@ -208,13 +208,18 @@ class Branch(Tabular, Shown):
         ((name, value),) = target.items()
         return points_at(self, name, value)
 
+    @property
+    def axes(self) -> tuple[str, str]:
+        """The columns that a picture shows unless told otherwise: the parameter, and an observable."""
+        (name, *_), observables = self.free, (n for n, c in self.columns.items() if c.role == "observable")
+        return name, next(observables, name)
+
     @checked
     def plot(self, x: str = "", y: str = "", **options: Any) -> Any:
         """Draw the branch and return the axes; by default an observable over the parameter. `options` as for `plot`."""
         from mjcont.drawing.plotting import plot
 
-        first = next((n for n, c in self.columns.items() if c.role == "observable"), next(iter(self.free)))
-        return plot(self, x=x or next(iter(self.free)), y=y or first, **options)
+        return plot(self, x=x, y=y, **options)
 
     def save(self, path: str | Path) -> Path:
         """Write the branch to an HDF5 file (replacing it whole or not at all) and return the path.
@@ -316,9 +321,7 @@ class Diagram(Shown):
 
         if not self.branches:
             raise MjcontError("the diagram has no branches to draw")
-        first = self.branches[0]
-        shown = next((n for n, c in first.columns.items() if c.role == "observable"), next(iter(first.free)))
-        return plot(*self.branches, x=x or next(iter(first.free)), y=y or shown, **options)
+        return plot(*self.branches, x=x, y=y, **options)
 
     @property
     def special_points(self) -> list[SpecialPoint]:

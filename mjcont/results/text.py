@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -51,6 +51,10 @@ class ParameterTable(dict[str, Parameter]):
 
     __repr__ = __str__
 
+    def _repr_html_(self) -> str:
+        """Return the table as a notebook shows it."""
+        return f"<pre>{escape(str(self))}</pre>"
+
 
 class Shown:
     """A result whose repr is the first line of its summary; a notebook shows all of it, and completes its columns."""
@@ -67,7 +71,7 @@ class Shown:
     def _ipython_key_completions_(self) -> list[str]:
         """Return the names that [...] takes."""
         found: list[str] = []
-        for each in ("columns", "fixed", "parameters", "observables"):
+        for each in ("columns", "fixed", "quantities", "parameters", "observables", "outputs"):
             found += [n for n in getattr(self, each, ()) if n not in found]
         return found
 
@@ -99,6 +103,25 @@ class Tabular:
         frame = pd.DataFrame({name: values for name, _, values in cells})
         frame.attrs["units"] = {name: unit for name, unit, _ in cells}
         return frame
+
+
+def to_xarray(dimensions: Mapping[str, tuple[str, Any]], variables: Mapping[str, tuple[str, Any]]) -> Any:
+    """Return an xarray Dataset of variables over dimensions, units in `attrs`; both map names to (unit, values).
+
+    Raises
+    ------
+    MjcontError
+        If xarray is not installed.
+    """
+    try:
+        import xarray
+    except ImportError as error:
+        raise MjcontError("to_xarray needs xarray: pip install 'mjcont[notebook]'") from error
+    over = tuple(dimensions)
+    return xarray.Dataset(
+        {name: (over[: np.ndim(values)], values, {"units": unit}) for name, (unit, values) in variables.items()},
+        {name: (name, values, {"units": unit}) for name, (unit, values) in dimensions.items()},
+    )
 
 
 def write_cells(path: str | Path, columns: Iterable[Cells], degrees: bool = True) -> Path:

@@ -51,13 +51,13 @@ def _check(found: dict[str, Any], table: Table, context: Context) -> None:
         raise table.error("count", "goes with frequencies = [low, high]")
 
 
-MODES = Kind("modes", "Frequencies, damping and shapes of the modes at an equilibrium (`modes`).", {
+MODES = Kind("modes", "Frequencies, damping and shapes of the modes at an equilibrium (`modes`), stored in NAME.h5.", {
     "name": _NAME, "point": _POINT,
     "csv": Key(v.flag, "Whether to write NAME.csv: a row a mode, with its shape.", True),
     "png": Key(v.flag, "Whether to draw NAME.png: the slowest modes of a mechanism that moves in a plane.", False),
 })
 
-TRANSFER = Kind("transfers", "Linear transfer functions at an equilibrium (`transfer`).", {
+TRANSFER = Kind("transfers", "Linear transfer functions at an equilibrium (`transfer`), stored in NAME.h5.", {
     "name": _NAME, "point": _POINT,
     "input": Key(_input, "The parameter that swings.", needed=True),
     "output": Key(_outputs, "Observables, such as `[\"theta_1\"]`.", (), otherwise="all"),

@@ -264,7 +264,8 @@ def _modes(plan: Task, at: Running) -> Outcome:
 
     g = plan.given
     found = modes(point_of(at.done, g["point"]))
-    return found, [*_table(found, plan, at), *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+    files = [found.save(at.folder / f"{plan.name}.h5"), *_table(found, plan, at)]
+    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
 
 
 def _transfer(plan: Task, at: Running) -> Outcome:
@@ -275,7 +276,8 @@ def _transfer(plan: Task, at: Running) -> Outcome:
     g = plan.given
     hertz = np.geomspace(g["frequencies"][0], g["frequencies"][1], g["count"]) if g["frequencies"] else None
     found = transfer(point_of(at.done, g["point"]), g["input"], g["output"] or None, hertz)
-    return found, [*_table(found, plan, at), *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+    files = [found.save(at.folder / f"{plan.name}.h5"), *_table(found, plan, at)]
+    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
 
 
 _RUNS: Mapping[str, Callable[[Task, Running], Outcome]] = {

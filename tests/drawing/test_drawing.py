@@ -262,7 +262,7 @@ def test_labels_do_not_overlap_and_stay_inside(model, keyframe):
 
 
 def test_everything_is_named_unless_told_otherwise(overcentre):
-    assert sorted(names(draw(overcentre))) == ["A", "B", "C", "F", "link_1", "link_2", "spring"]
+    assert sorted(names(draw(overcentre))) == ["A", "B", "C", "F", "link 1", "link 2", "spring"]
     assert names(draw(overcentre, labels=False)) == []
     assert sorted(names(draw(overcentre, labels=("pins", "forces")))) == ["A", "B", "C", "F"]
     renamed = names(draw(overcentre, labels={"link_1": "crank", "spring": ""}))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,8 @@ OSCILLATES, DECAYS, GROWS, FLUTTERS, NEUTRAL = "oscillates", "decays", "grows", 
 # of a model's scale, the largest entry of a shape where it is shown
 _SHOWN = 0.2
 _REST = 1e-300
+# modes that are drawn without being named
+_DRAWN = 6
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -84,6 +87,12 @@ class Mode(Shown):
         rate = f"{self.frequency:.6g} Hz, damping ratio {self.damping_ratio:.4g}" if self.omega else \
             f"{self.growth:.4g} 1/s"
         return f"mode {self.number}: {rate}, {self.kind}; moves most: {', '.join(_largest(self))}"
+
+    def plot(self, *, plane: str | None = None) -> Any:
+        """Draw both ends of its swing over rest and return the figure; `animate` shows it moving."""
+        from mjcont.drawing.linear import draw_modes
+
+        return draw_modes([self], 1, plane)
 
     @checked
     def displaced(self, phase: float = 0.0, amplitude: float | None = None) -> Array:
@@ -201,6 +210,12 @@ class Modes(Tabular, Shown):
             yield f"re {name}", "", entries.real
             yield f"im {name}", "", entries.imag
 
+    def save(self, path: str | Path) -> Path:
+        """Write all of it to an HDF5 file (replacing it whole or not at all) and return the path."""
+        from mjcont.results.linear.files import save
+
+        return save(self, path)
+
     @checked
     def plot(self, numbers: Sequence[int] | None = None, *, cols: int = 4, plane: str | None = None) -> Any:
         """Draw poses of some modes (default the first six) at both ends of their swing over rest; return the figure.
@@ -212,7 +227,7 @@ class Modes(Tabular, Shown):
         """
         from mjcont.drawing.linear import draw_modes
 
-        return draw_modes(self, numbers, cols, plane)
+        return draw_modes([self.mode(n) for n in numbers] if numbers is not None else self.modes[:_DRAWN], cols, plane)
 
     def table(self, most: int | None = None) -> list[str]:
         """Return the table's lines, of the `most` slowest modes."""

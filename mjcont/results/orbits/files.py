@@ -37,7 +37,7 @@ from mjcont.numerics.orbits.scheme import SCHEMES, scheme
 from mjcont.outside.hdf5text import Attributes
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
-from mjcont.results.files import frozen, save_hdf5
+from mjcont.results.files import frozen, read_complex, save_hdf5
 from mjcont.results.model import Model
 from mjcont.results.orbits.charts import Chart
 from mjcont.results.orbits.curve import CycleBranch, with_orbits
@@ -85,7 +85,7 @@ def write_cycles(branch: CycleBranch, f: h5py.Group) -> None:
 def read_cycles(f: h5py.File, problem: Model | None) -> CycleBranch:
     """Return the curve of orbits in a file."""
     branch = read_branch(f, problem)
-    multipliers = [frozen(row) for row in f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]]
+    multipliers = [frozen(row) for row in read_complex(f["eigenvalues"])]
     forcing = json.loads(Attributes(f)["forcing"])
     orbits = _read_orbits(f[GROUP], branch, multipliers, forcing)
     return with_orbits(replace(branch, spectra=Spectra(multipliers)), orbits, forcing)

@@ -141,6 +141,10 @@ class Orbit(Shown):
         """Return an observable at `times`, (n,)."""
         return self.read(name, self.times)
 
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return the names that [...] takes."""
+        return list(self.reading.names)
+
     @checked
     def read(self, name: str, times: float | Sequence[float] | Array) -> Array:
         """Return an observable at times in the period, (m,): the polynomials through its values at the points."""
