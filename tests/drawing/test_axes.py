@@ -198,3 +198,16 @@ def test_dashes_of_curves_that_coincide_stay_dashes():
     row = image[image.shape[0] - round(ax.transData.transform((0.5, 0.0))[1]), :, :3].astype(int)
     assert (row.sum(axis=1) > 750).sum() > 0.2 * ax.bbox.width
     assert (row[:, 0] - row[:, 2] > 100).sum() < 0.05 * ax.bbox.width
+
+
+@pytest.mark.long
+def test_the_curve_of_the_four_bar_linkage_looks_smooth():
+    (branch,) = [p for p in mc.load_study("four_bar").plans if p.name == "equilibria"]
+    curve = mc.continue_equilibria(mc.Mechanism.from_xml("four_bar"), "M", branch.bounds, **branch.settings)
+    ax = curve.plot(y="crank")
+    ax.figure.draw_without_rendering()
+    for line in (line for line in ax.lines if line.get_label() == "_curve"):
+        steps = np.diff(ax.transData.transform(line.get_xydata()), axis=0)
+        turns = np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))
+        assert np.degrees(np.abs(turns).max()) < 12.0
+        assert np.hypot(*steps.T).max() < 0.02 * ax.bbox.width
