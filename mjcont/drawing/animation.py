@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.drawing import plotting
 from mjcont.drawing.axes import show_axis, spread_ticks
 from mjcont.drawing.frames import Frame, Result, Track, default_columns, frames_of, track_of
@@ -44,6 +45,7 @@ _TIGHT = 0.03
 _MOVING = "#d1281f"
 
 
+@checked
 def animate(
     result: Result | Orbits | Mode,
     path: str | Path,
@@ -250,7 +252,7 @@ def _unit(result: Result, name: str) -> str:
 
 
 def _branches(on: Branch | Sequence[Branch] | None) -> list[Branch]:
-    branches = [on] if isinstance(on, Branch) else list(on or [])
+    branches = [on] if isinstance(on, Branch) else list(on if on is not None else [])
     for b in branches:
         if not isinstance(b, Branch):
             raise MjcontError(f"on takes a Branch, or several in a list, got a {type(b).__name__}")
@@ -262,7 +264,7 @@ def _check_options(fps: float, seconds: float | None, size: Any, rendering: str,
         if value is not None and not (value > 0 and math.isfinite(value)):
             raise MjcontError(f"{label} must be a positive number, got {value}")
     low, high = _SIDES
-    if len(size) != 2 or not all(isinstance(n, int | np.integer) and low <= n <= high for n in size):
+    if np.shape(size) != (2,) or not all(isinstance(n, int | np.integer) and low <= n <= high for n in size):
         raise MjcontError(f"size must be width and height in pixels, each a whole number from {low} to {high}: {size}")
     if rendering not in RENDERINGS:
         raise unknown_name("rendering", rendering, RENDERINGS)

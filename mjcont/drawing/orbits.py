@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.drawing.axes import axis_label, show_axis
 from mjcont.drawing.plotting import COLORS, LINE_STYLES, new_figure
 from mjcont.errors import MjcontError, ParameterError
@@ -22,6 +23,7 @@ _FINE = 16
 _TEXT = 9.0
 
 
+@checked
 def plot_orbits(
     *orbits: Any,
     x: str,

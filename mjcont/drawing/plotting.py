@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.drawing.axes import readable, show_axis, spread_ticks
 from mjcont.drawing.loadpaths import draw_path
 from mjcont.drawing.notes import LABEL, LEGEND, POINT, place_labels, place_legend, xy
@@ -72,6 +73,7 @@ def set_panel_title(ax: Axes, text: str) -> None:
     ax.set_title(text, loc="left", fontsize=9.5)
 
 
+@checked
 def plot(
     *curves: Any,
     x: str = "",
@@ -175,7 +177,8 @@ def each_curve(curves: Iterable[Any]) -> list[Any]:
     """Return curves one by one: diagrams and lists of them are taken apart."""
     found: list[Any] = []
     for c in curves:
-        found += [c] if isinstance(c, Branch | LoadPath) or not isinstance(c, Iterable) else each_curve(c)
+        plain = isinstance(c, Branch | LoadPath | str) or not isinstance(c, Iterable)
+        found += [c] if plain else each_curve(c)
     return found
 
 

@@ -90,7 +90,7 @@ class Derivatives:
     def along(self, states: Array, values: Values, name: str, column: Array) -> Array:
         """Return forces at states (m, nq), a parameter having a value of its own in each (m,), shape (m, nv)."""
         if self.side_by_side(name):
-            controls = self.writer.controls(self.parameters, values, name, column)
+            controls = self.writer.controls(self.parameters, values, {name: column})
             return self.evaluator.forces(states, ctrl=controls).copy()
         found = np.empty((len(states), len(self.scale)))
         for i, value in enumerate(column.tolist()):
@@ -111,7 +111,7 @@ class Derivatives:
         h = np.array([self.rule(name, value, bounds)[1] for value in column.tolist()])
         steps = np.zeros((2 * n + 2, n))
         steps[1:-1] = jacobian_steps(self.scale, rule)
-        controls = self.writer.controls(self.parameters, values, name, np.repeat(column, len(steps)))
+        controls = self.writer.controls(self.parameters, values, {name: np.repeat(column, len(steps))})
         for target in self.parameters[name].targets:
             controls[len(steps) - 1 :: len(steps), target.index] += target.factor * h[:, None]
         moved = self.moved(np.repeat(states, len(steps), axis=0), np.tile(steps, (len(states), 1)))

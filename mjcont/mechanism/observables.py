@@ -14,6 +14,7 @@ from typing import Any, Protocol
 import mujoco
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import unknown_name
 from mjcont.mechanism.batches import Rows
 from mjcont.mechanism.declarations import declarations
@@ -151,13 +152,23 @@ class Readings:
         return out
 
     def read_along(
-        self, chosen: Sequence[Observable], states: Array, values: Values, name: str, column: Array
+        self,
+        chosen: Sequence[Observable],
+        states: Array,
+        values: Values,
+        driven: Mapping[str, Array],
+        velocities: Array | None = None,
+        activations: Array | None = None,
     ) -> Array:
-        """Return observables at rest in states (m, nq), a parameter having a value of its own in each (m,)."""
+        """Return observables as `read` does, parameters having values of their own in each state (m,), by name."""
         plain = all(o.source is not None for o in chosen) and not self._constrained
-        if len(states) < _MANY or not plain or not self._writer.alone(self._parameters, name):
-            return self.read(chosen, states, [{**values, name: v} for v in column.tolist()])
-        controls = self._writer.controls(self._parameters, values, name, column)
+        if len(states) < _MANY or not plain or not all(self._writer.alone(self._parameters, n) for n in driven):
+            each = [{**values, **{n: float(column[i]) for n, column in driven.items()}} for i in range(len(states))]
+            return self.read(chosen, states, each, velocities, activations)
+        self._writer.write(self._parameters, values)
+        if self._writer.failure:
+            return np.full((len(states), len(chosen)), np.nan)
+        controls = self._writer.controls(self._parameters, values, driven) if driven else None
         if self._rows is None:
             self._rows = Rows(self._model, _ROWS, None)
         sources = [o.source for o in chosen if o.source is not None]
@@ -165,7 +176,8 @@ class Readings:
         out = np.empty((len(states), len(chosen)))
         for first in range(0, len(states), _ROWS):
             here = np.minimum(np.arange(first, first + _ROWS), len(states) - 1)
-            self._rows.forward(states[here], None, self._writer, controls[here])
+            speeds, acts = (None if given is None else given[here] for given in (velocities, activations))
+            self._rows.forward(states[here], speeds, self._writer, None if controls is None else controls[here], acts)
             count = min(_ROWS, len(states) - first)
             for k, read in enumerate(columns):
                 out[first : first + count, k] = read[:count]
@@ -191,6 +203,7 @@ class Observed:
     def _core(self) -> _Reading:
         raise NotImplementedError
 
+    @checked
     def observe(self, name: str, function: Callable[[Any, Any], float], unit: str = "") -> None:
         """Add an observable computed by `function(model, data)` from MuJoCo's model and data.
 
@@ -223,6 +236,14 @@ class Observed:
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
         return self._core.readings.read(chosen, states, values, velocities, activations)
 
-    def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return all observables at rest in states (m, nq), a parameter having a value of its own in each (m,)."""
-        return self._core.readings.read_along(list(self.observables.values()), states, values, name, column)
+    def measure_along(
+        self,
+        states: Array,
+        values: Values,
+        driven: Mapping[str, Array],
+        velocities: Array | None = None,
+        activations: Array | None = None,
+    ) -> Array:
+        """Return all observables as `measure` does, parameters having values of their own in each state (m,)."""
+        chosen = list(self.observables.values())
+        return self._core.readings.read_along(chosen, states, values, driven, velocities, activations)

@@ -130,15 +130,19 @@ class FieldWriter:
         return self._alone[name]
 
     def controls(
-        self, parameters: Mapping[str, Parameter], values: Mapping[str, float], name: str, column: np.ndarray
+        self, parameters: Mapping[str, Parameter], values: Mapping[str, float], driven: Mapping[str, np.ndarray]
     ) -> np.ndarray:
-        """Write `values` and return controls (m, nu) in which a control that is `alone` has values of its own (m,)."""
+        """Write `values` and return controls (m, nu) in which those `driven`, each `alone`, have values of their own.
+
+        `driven` maps names to these, (m,) each.
+        """
         self.write(parameters, values)
-        ctrl = np.empty((len(column), self.model.nu))
+        ctrl = np.empty((len(next(iter(driven.values()))), self.model.nu))
         ctrl[:] = self.inputs.ctrl
-        for target in parameters[name].targets:
-            for i in target.index:
-                ctrl[:, i] += target.factor * (column - values[name])
+        for name, column in driven.items():
+            for target in parameters[name].targets:
+                for i in target.index:
+                    ctrl[:, i] += target.factor * (column - values[name])
         return ctrl
 
     def _forget(self) -> None:

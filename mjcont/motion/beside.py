@@ -63,7 +63,7 @@ def _check_orbit(
     branch: CycleBranch, row: int, amplitude: float, tolerance: float, resolution: float, max_steps: int
 ) -> Check:
     orbit, word = branch.orbits[row], str(branch.stability[row])
-    own = np.delete(orbit.multipliers, orbit.trivial) if orbit.trivial >= 0 else orbit.multipliers
+    own = orbit.multipliers[orbit.own]
     largest = complex(own[np.argmax(np.abs(own))]) if len(own) else 0.0j
     size = max(abs(largest), 1e-300)
     s = complex(math.log(size), math.atan2(largest.imag, largest.real)) / orbit.period
@@ -87,7 +87,7 @@ def _check_orbit(
 
 def _measure(orbit: Orbit, amplitude: float, max_steps: int) -> _Beside | None:
     """Return what motions beside an orbit tell, None where they cannot be followed for a period."""
-    flow = flow_for(model_of(orbit.problem, "the orbit"), orbit.forcing)
+    flow = flow_for(model_of(orbit.problem, "the orbit"), orbit.forcing, orbit.chart)
     d, c, values = flow.d, flow.c, dict(orbit.parameters)
     sizes = np.maximum(flow.scale, np.ptp(orbit.path.s, axis=0))
     start = orbit.path.s[0]

@@ -21,11 +21,12 @@ from mjcont.numerics.step.arclength import CurvePoint, tangent_at
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace
 from mjcont.oscillation.collect import collect, flow_at, make_orbit, reporter, verdict
+from mjcont.oscillation.conserving import flow_as_recorded
 from mjcont.oscillation.fields import FieldFlow
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import Forcing, Harmonic, make_forcing
 from mjcont.results.model import Model
-from mjcont.results.orbits import CycleBranch, OrbitPoint, point_of
+from mjcont.results.orbits import Chart, CycleBranch, OrbitPoint, point_of
 from mjcont.vectorfield import VectorField
 
 # the corrector's: multipliers are read off derivatives at its last iterate
@@ -80,8 +81,8 @@ def _whole(what: str, value: Any, low: int, high: int) -> int:
     return value
 
 
-def flow_of(problem: Model, forcing: Forcing | None = None) -> ModelFlow:
-    """Return the motion of a model.
+def flow_of(problem: Model, forcing: Forcing | None = None, chart: Chart | None = None) -> ModelFlow:
+    """Return the motion of a model; `chart` as `ModelFlow` has it, by default about the model's own state.
 
     Raises
     ------
@@ -92,16 +93,18 @@ def flow_of(problem: Model, forcing: Forcing | None = None) -> ModelFlow:
         return FieldFlow(problem, forcing)
     from mjcont.oscillation.mechanisms import mechanism_flow  # MuJoCo is imported only where there is a Mechanism
 
-    return mechanism_flow(problem, forcing)
+    return mechanism_flow(problem, forcing, chart)
 
 
-def flow_for(model: Model, record: Mapping[str, Any]) -> ModelFlow:
-    """Return the motion of a model under forcing as files keep it."""
+def flow_for(model: Model, record: Mapping[str, Any], chart: Chart | None = None) -> ModelFlow:
+    """Return the motion of a model under forcing as files keep it, in the coordinates of one of its orbits."""
+    if "conserves" in record:
+        return flow_as_recorded(flow_of(model, None, chart), record["conserves"])
     periods = int(record.get("periods", 1))
     if not record.get("inputs"):
-        return FieldFlow(model, None, periods) if isinstance(model, VectorField) else flow_of(model)
+        return FieldFlow(model, None, periods) if isinstance(model, VectorField) else flow_of(model, None, chart)
     inputs = {n: Harmonic(a, p, h) for n, (a, p, h) in record["inputs"].items()}
-    return flow_of(model, make_forcing(model, inputs, None, periods))
+    return flow_of(model, make_forcing(model, inputs, None, periods), chart)
 
 
 def point_stop(stop: Stop | None) -> Callable[[System, CurvePoint], str | None] | None:
@@ -154,8 +157,9 @@ def run(
     progress: Progress | None = None,
     notes: Sequence[str] = (),
     special: Special | None = None,
+    periods: int = 1,
 ) -> CycleBranch:
-    """Walk from each entry and collect the curve; `special` where it is one of special orbits."""
+    """Walk from each entry and collect the curve; `special` where it is one of special orbits, `periods` of several."""
     traces: list[Trace] = []
     report = reporter(progress)
     for entry in entries:
@@ -168,7 +172,7 @@ def run(
             if isinstance(first, Refused):
                 traces.append(Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
-            follower = Follower(options.settings, options.meshes, point_stop(stop))
+            follower = Follower(options.settings, options.meshes, point_stop(stop), periods=periods)
             if special is not None:
                 follower = replace(follower, detectors=special.detectors, held=special.held, end_at=special.end_at)
             traces.append(trace_orbits(follower, system, first, report))

@@ -9,6 +9,7 @@ from typing import Any
 
 import h5py
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, ResultFileError, ResultWarning
 from mjcont.outside.hdf5text import Attributes
 from mjcont.outside.sealing import Damaged, opened, refuse_broken_seal
@@ -42,6 +43,7 @@ READERS: Mapping[str, Reader] = {
 }
 
 
+@checked
 def load(path: str | Path, problem: Model | None = None) -> Result:
     """Read a result, whichever it is; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
 

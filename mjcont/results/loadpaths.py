@@ -5,24 +5,28 @@ Layout of a file beside what `files` says (format version 2)::
     /                 attributes: format, format_version, kind "load path", name, vertices (JSON), status, message
     /model            the MJCF text
     /segments/I       a branch (see `branchfiles`), attributes direction, leg
-    /jumps/I          attributes: label, kind, index, energy (absent if not defined), energy_note, time, steps, ...
+    /jumps/I          attributes: label, kind, index, energy (absent if not defined), energy_note, time, steps, ...;
+                      at folds parameter, load, passage (inertia, damping, slope, curvature)
     /jumps/I/states   (m, nq) samples of the motion; the points on both sides are rows of the segments
 """
 
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import astuple, dataclass, field
 from pathlib import Path
 from typing import Any
 
 import h5py
 import numpy as np
 
-from mjcont.errors import unknown_name
+from mjcont.arguments import checked
+from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
+from mjcont.numerics.points.passage import Passage
 from mjcont.outside.hdf5text import Attributes
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
@@ -59,6 +63,22 @@ class Segment:
         return self.branch[name][:: self.direction]
 
 
+@dataclass(frozen=True, slots=True)
+class Delay:
+    """How late a jump is under a load that changes at a finite rate.
+
+    Attributes
+    ----------
+    time : s between the fold and the jump.
+    shift : how far the load is then beyond the fold, as a positive number.
+    inertial : part of inertia in it: 0 where damping alone delays (shift ~ rate^(2/3)), 1 inertia (rate^(4/5)).
+    """
+
+    time: float
+    shift: float
+    inertial: float
+
+
 @dataclass(frozen=True, slots=True, repr=False)
 class Jump(Shown):
     """What happens where a rest is lost.
@@ -76,6 +96,9 @@ class Jump(Shown):
     steps : forward evaluations that it took.
     status, message : "rest", "no rest", "diverged" or "interrupted", and a sentence.
     states : (m, nq) samples of the motion.
+    parameter : what the load changes first, in whose unit the rates and shifts below are.
+    load : its magnitude there, or, where that is zero, of the way left.
+    passage : normal form of the fold for a load that moves at a finite rate; None where it is no fold.
     """
 
     label: str
@@ -90,6 +113,45 @@ class Jump(Shown):
     status: str
     message: str
     states: Array = field(repr=False)
+    parameter: str = ""
+    load: float = math.nan
+    passage: Passage | None = None
+
+    def delay(self, rate: float) -> Delay:
+        """Return how late the jump is under a load that changes at a rate, per s, that is, how slow is slow.
+
+        Raises
+        ------
+        MjcontError
+            If the rest is not lost at a fold.
+        ParameterError
+            If the rate is not a positive number, of either sign.
+        """
+        form = self._form()
+        if not (math.isfinite(rate) and rate != 0.0):
+            raise ParameterError(f"the rate of {self.parameter} must be a number other than zero, got {rate!r}")
+        return Delay(form.time(rate), form.shift(rate), form.inertial(rate))
+
+    def slow(self, part: float = 0.01) -> float:
+        """Return the rate, per s, at which the jump is late by a part of the load.
+
+        Raises
+        ------
+        MjcontError
+            If the rest is not lost at a fold.
+        ParameterError
+            If the part is not positive.
+        """
+        form = self._form()
+        if not (math.isfinite(part) and part > 0.0):
+            raise ParameterError(f"the part of the load must be a positive number, got {part!r}")
+        return form.rate(part * self.load)
+
+    def _form(self) -> Passage:
+        if self.passage is None:
+            what = KINDS[self.kind].name if self.kind in KINDS else "a loss of stability that was not located"
+            raise MjcontError(f"{self.label} is {what}: how slow is slow is known at folds (LP) with curvature alone")
+        return self.passage
 
     def __str__(self) -> str:
         """Return a sentence: where, from, to, energy, time."""
@@ -105,7 +167,13 @@ class Jump(Shown):
 
         changes = ", ".join(shown(n) for n in names)
         energy = f"; releases {self.energy:.6g} J" if self.energy is not None else ""
-        return f"{self.label} ({what}): {changes}{energy}; {self.message}"
+        late = f"; {self._late()}" if self.passage is not None else ""
+        return f"{self.label} ({what}): {changes}{energy}; {self.message}{late}"
+
+    def _late(self) -> str:
+        """Return a clause: at which rate the jump is late by 1 % of the load."""
+        rate, unit = self.slow(), self.before.units.get(self.parameter, "")
+        return f"late by {show(0.01 * self.load, unit, 3)} under a load of {show(rate, unit, 3)}/s"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -169,6 +237,7 @@ class LoadPath(Tabular, Shown):
         last = self.segments[-1]
         return last.branch.row(int(last.rows()[-1]))
 
+    @checked
     def jump(self, label: str) -> Jump:
         """Return the jump with a label such as "LP1"."""
         for j in self.jumps:
@@ -208,6 +277,8 @@ class LoadPath(Tabular, Shown):
             )
             if j.energy is not None:
                 Attributes(g)["energy"] = j.energy
+            if j.passage is not None:
+                Attributes(g).update(parameter=j.parameter, load=j.load, passage=astuple(j.passage))
             g["states"] = j.states
 
     @property
@@ -273,5 +344,6 @@ def _read_jump(g: h5py.Group, segments: list[Segment]) -> Jump:
         str(a["label"]), str(a["kind"]), special[0] if special else before.branch.row(at),
         after[0].branch.row(after[1]) if after else None, index,
         float(a["energy"]) if "energy" in a else None, str(a["energy_note"]), float(a["time"]), int(a["steps"]),
-        str(a["status"]), str(a["message"]), g["states"][()],
+        str(a["status"]), str(a["message"]), g["states"][()], str(a.get("parameter", "")),
+        float(a.get("load", math.nan)), Passage(*map(float, a["passage"])) if "passage" in a else None,
     )

@@ -13,7 +13,7 @@ from typing import Any, Protocol, Self
 
 from mjcont.errors import BoundsError, MjcontError, RangeWarning, unknown_name
 from mjcont.numerics.equations.problem import Array, Equations, Values
-from mjcont.results.quantities import Observable, Parameter, column_of, finite_pair
+from mjcont.results.quantities import Observable, Parameter, check_name, column_of, finite_pair
 
 # what numerics and verbs ask of a model, and no user needs
 _ENGINE = frozenset(
@@ -69,9 +69,10 @@ class Model(Equations):
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables, by default all, for states (m, nq), shape (m, number of names)."""
 
-    def measure_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return all observables for states (m, nq), a parameter having a value of its own in each (m,)."""
-        return self.measure(states, [{**values, name: v} for v in column.tolist()])
+    def measure_along(self, states: Array, values: Values, driven: Mapping[str, Array]) -> Array:
+        """Return all observables for states (m, nq), parameters having values of their own in each (m,), by name."""
+        rows = [{**values, **{n: float(column[i]) for n, column in driven.items()}} for i in range(len(states))]
+        return self.measure(states, rows)
 
     def rescaled(self, sizes: Array, *, grow: bool = False) -> Self | None:
         """Return this model with a scale that fits sizes of its state (n,); None where it fits or was given.
@@ -91,6 +92,7 @@ class Model(Equations):
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`."""
+        check_name(name)
         if name not in self.parameters:
             raise unknown_name("parameter", name, self.parameters)
         return self.parameters[name]

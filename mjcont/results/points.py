@@ -11,7 +11,7 @@ from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import name_of
 from mjcont.results.model import Model, model_of
-from mjcont.results.quantities import column_of
+from mjcont.results.quantities import check_name, column_of
 from mjcont.results.text import Shown
 from mjcont.results.units import displayed, sized
 
@@ -58,6 +58,7 @@ class Point(Shown):
 
     def __getitem__(self, name: str) -> float:
         """Return a parameter's or observable's value."""
+        check_name(name)
         if name in self.parameters:
             return self.parameters[name]
         if (own := column_of(name, self.observables)) is not None:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.errors import MjcontError, ParameterError
+from mjcont.errors import MjcontError
 from mjcont.outside.csvfiles import write_table
 from mjcont.results.quantities import Parameter
 from mjcont.results.units import displayed
@@ -133,9 +133,3 @@ def write_cells(path: str | Path, columns: Iterable[Cells], degrees: bool = True
         turned = (values if factor == 1.0 else values * factor).tolist() if isinstance(values, np.ndarray) else values
         cells.append(["" if isinstance(v, float) and math.isnan(v) else v for v in turned])
     return write_table(path, heads, zip(*cells, strict=True))
-
-
-def check_kind(what: str, given: Any, kind: type, advice: str) -> None:
-    """Raise a ParameterError unless what a verb is given is of a kind; `advice` says what to write."""
-    if not isinstance(given, kind):
-        raise ParameterError(f"{what} must be a {kind.__name__}, got {type(given).__name__}: {advice}")

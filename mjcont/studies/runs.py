@@ -91,7 +91,8 @@ def task_line(mechanism: Any, plan: Task) -> str:
         "locus": lambda: f"{of}, {span(g['parameter'], g['bounds'])}",
         "path": lambda: g["parameter"] + " " + " -> ".join(show(v, unit_of[g["parameter"]], 6) for v in g["values"])
         if g["parameter"] else f"{len(g['loads'])} loads",
-        "history": lambda: f"{g['duration']:g} s, " + (", ".join(g["inputs"]) or "no inputs"),
+        "history": lambda: ", ".join([*([f"{g['duration']:g} s"] if g["duration"] else []),
+                                      *(g["inputs"] or ["no inputs"])]),
         "worst case": lambda: f"{of}, " + ", ".join(span(n, b) for n, b in g["ranges"].items()),
         "map": lambda: f"{of}, " + ", ".join(f"{span(n, (a[0], a[-1]))} ({len(a)})" for n, a in g["grid"].items()),
     }
@@ -181,16 +182,20 @@ def _path(plan: Task, at: Running) -> Outcome:
     g = plan.given
     way = (g["parameter"], g["values"]) if g["parameter"] else (g["loads"], None)
     options = {**start_of(g, at.done), **{key: g[key] for key in ("landing", "max_time", "max_jumps")}, **g["settings"]}
-    found = load_path(at.mechanism, way[0], way[1], **options)
+    found = load_path(at.mechanism, way[0], way[1], progress=at.reporter.step, **options)
     return found, store_curve(found, plan.name, g["csv"], at.folder)
 
 
 def _history(plan: Task, at: Running) -> Outcome:
     from mjcont.motion.histories import simulate
+    from mjcont.results.orbits import OrbitPoint, SpecialOrbit
 
     g = plan.given
+    begin: dict[str, Any] = {"problem": at.mechanism, **start_of(g, at.done)}
+    if isinstance(begin["start"], OrbitPoint | SpecialOrbit):
+        begin = {"problem": begin["start"]}
     found = simulate(
-        at.mechanism, g["inputs"], g["duration"], **start_of(g, at.done),
+        **begin, inputs=g["inputs"], duration=g["duration"],
         **{key: g[key] for key in ("timestep", "integrator", "tol", "until_rest", "samples")},
     )
     files = store_curve(found, plan.name, g["csv"], at.folder)
@@ -214,7 +219,8 @@ def _worst(plan: Task, at: Running) -> Outcome:
 
     g = plan.given
     found = worst_case(
-        point_of(at.done, g["point"]), g["ranges"], **{key: g[key] for key in ("quantity", "maximise", "grid", "tol")}
+        point_of(at.done, g["point"]), g["ranges"], progress=at.reporter.step,
+        **{key: g[key] for key in ("quantity", "maximise", "grid", "tol")},
     )
     return found, _table(found, plan, at)
 
@@ -223,7 +229,7 @@ def _map(plan: Task, at: Running) -> Outcome:
     from mjcont.influence.maps import special_map
 
     g = plan.given
-    found = special_map(point_of(at.done, g["point"]), g["grid"])
+    found = special_map(point_of(at.done, g["point"]), g["grid"], progress=at.reporter.step)
     files = _table(found, plan, at)
     if g["png"] and found.exists.any():
         options = {"kind": g["kind"]} if len(found.axes) == 2 else {}
@@ -249,7 +255,7 @@ def _barrier(plan: Task, at: Running) -> Outcome:
 
     g = plan.given
     saddles = [b for name in g["saddles"] for b in curves_of(at.done, name)]
-    found = barrier_along(curve_of(at.done, g["branch"]), saddles, search=g["search"])
+    found = barrier_along(curve_of(at.done, g["branch"]), saddles, search=g["search"], progress=at.reporter.step)
     return found, [*_table(found, plan, at), *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
 
 

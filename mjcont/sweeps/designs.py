@@ -12,8 +12,8 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from scipy import stats
 
+from mjcont.arguments import check_fields
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
 
@@ -50,6 +50,7 @@ class Spread:
 
     def __post_init__(self) -> None:
         """Refuse what is no distribution."""
+        check_fields(self)
         if self.kind not in DISTRIBUTIONS:
             raise unknown_name("distribution", self.kind, DISTRIBUTIONS)
         if not (math.isfinite(self.width) and self.width > 0):
@@ -61,6 +62,8 @@ class Spread:
 
     def quantiles(self, probability: Array, nominal: float) -> Array:
         """Return the values that are not exceeded with the given probabilities."""
+        from scipy import stats
+
         centre = nominal if self.centre is None else self.centre
         if self.kind == "lognormal":
             if centre == 0:
@@ -121,12 +124,16 @@ def make_design(
 
 
 def _probabilities(design: str, cases: int, dimensions: int, seed: int) -> Array:
+    if seed < 0:
+        raise ParameterError(f"seed must be a whole number from 0 on, got {seed}")
     random = np.random.Generator(np.random.PCG64(seed))
     inside = random.random((cases, dimensions))
     if design == "monte carlo":
         return np.clip(inside, 2.0**-54, None)  # no quantile is infinite
     if design == "quasi-random":
-        sequence = stats.qmc.Sobol(dimensions, scramble=True, seed=np.random.Generator(np.random.PCG64(seed)))
+        from scipy.stats import qmc
+
+        sequence = qmc.Sobol(dimensions, scramble=True, seed=np.random.Generator(np.random.PCG64(seed)))
         return np.clip(sequence.random_base2(max(cases - 1, 0).bit_length())[:cases], 2.0**-54, None)
     strata = np.column_stack([random.permutation(cases) for _ in range(dimensions)])
     return np.clip((strata + inside) / cases, 2.0**-54, None)

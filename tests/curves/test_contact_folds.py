@@ -53,7 +53,7 @@ def extrema(exponent):
     return drive(high.x), drive(low.x)
 
 
-@pytest.mark.parametrize("exponent", [3.0, 5.5, 8.0, *map(long, (4.0, 6.0, 6.5, 7.0))])
+@pytest.mark.parametrize("exponent", [3.0, 5.5, *map(long, (4.0, 6.0, 6.5, 7.0, 8.0))])
 def test_both_folds_are_found_at_any_stiffness_of_the_contact(exponent):
     branch = mc.continue_equilibria(mc.Mechanism.from_xml(model(exponent)), "M", bounds=(-60, 60))
     assert [word for word, _ in branch.ends] == ["at bound", "at bound"]

@@ -168,6 +168,7 @@ def test_an_imperfect_pitchfork_has_only_the_branch_of_its_start():
     assert np.all(branch["x"] > 0.0)
 
 
+@pytest.mark.long
 def test_the_same_diagram_is_the_same_to_the_bit():
     once, again = (mc.bifurcation_diagram(two_modes(), "mu", bounds=(0.0, 4.5)) for _ in range(2))
     for a, b in zip(once, again, strict=True):

@@ -223,6 +223,7 @@ def test_an_extended_fold_curve_obeys_its_closed_form():
     assert locus["u"] * (1.0 - locus["u"]) == pytest.approx(4.0 / locus["B"], abs=1e-8)
 
 
+@pytest.mark.long
 def test_a_hopf_curve_that_was_cut_short_is_extended_to_the_whole_and_no_further():
     point = branch_of_ab(18.0).point("HB2")
     short = mc.continue_special(point, "B", bounds=(8.0, 24.0), max_points=6)

@@ -14,6 +14,7 @@ import pytest
 from problems.fields import branch_of_brusselator, cusp
 from problems.loci import folds_of_ab, hopfs_of_ab, kinds, only
 from problems.locusfields import conic, pitchfork, tilted_cusp
+from problems.marks import long
 from problems.reference import ELASTIC_FOLDS
 
 import mjcont as mc
@@ -112,6 +113,7 @@ def test_the_hopf_curve_of_ab_is_the_same_from_its_other_hopf_point():
         assert [one["D"], one["B"]] == pytest.approx([other["D"], other["B"]], rel=1e-8)
 
 
+@pytest.mark.long
 def test_the_hopf_curve_of_ab_takes_as_many_points_whichever_hopf_point_it_starts_from():
     # omega is ten times larger at the second
     assert len(hopfs_of_ab("HB1")) < 2 * len(hopfs_of_ab("HB2"))
@@ -277,7 +279,7 @@ def overcentre_folds(overcentre_branch):
 
 
 @pytest.mark.parametrize("which", [UPPER, LOWER])
-@pytest.mark.parametrize("k_j", [1000.0, 200.0, 100.0])
+@pytest.mark.parametrize("k_j", [1000.0, long(200.0), 100.0])
 def test_a_fold_curve_of_the_overcentre_passes_the_reference(overcentre_folds, k_j, which):
     point = only(overcentre_folds(which, k_j), "UZ")
     force, angle = ELASTIC_FOLDS[k_j][which]

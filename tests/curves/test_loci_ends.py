@@ -45,6 +45,7 @@ def test_a_locus_keeps_the_bounds_of_the_first_parameter_unless_others_are_given
     assert wider.free["D"] == (0.0, 1.0)
 
 
+@pytest.mark.long
 def test_the_same_locus_is_the_same_to_the_bit():
     once, again = (mc.continue_special(branch_of_ab(18.0).point("HB2"), "B", bounds=(10.0, 20.0)) for _ in range(2))
     assert np.array_equal(once.states, again.states)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from problems.marks import long
 
 import mjcont as mc
 
@@ -45,7 +46,7 @@ def ends(branches, rotation, size, own):
     return found
 
 
-@pytest.mark.parametrize(("n", "size", "seed"), [(2, 1.0, None), (5, 1.0, 1), (4, 1e-3, 2), (4, 1e3, 3)])
+@pytest.mark.parametrize(("n", "size", "seed"), [(2, 1.0, None), long(5, 1.0, 1), long(4, 1e-3, 2), (4, 1e3, 3)])
 def test_two_pitchforks_in_one_place_have_five_branches(n, size, seed):
     problem, rotation = field(two_pitchforks, n, size, seed)
     point = mc.continue_equilibria(problem, "p", (-1.0, 1.0)).point("BP1")

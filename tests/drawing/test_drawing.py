@@ -3,9 +3,11 @@
 import os
 import subprocess
 import sys
+from itertools import product
 
 import numpy as np
 import pytest
+from problems.marks import long
 
 import mjcont as mc
 from mjcont.drawing.picture import picture
@@ -248,8 +250,9 @@ def rectangles(ax):
     return [(b.min, b.max) for b in boxes]
 
 
-@pytest.mark.parametrize("model", GEARS)
-@pytest.mark.parametrize("keyframe", KEYFRAMES)
+@pytest.mark.parametrize(("model", "keyframe"), [
+    *zip(GEARS, KEYFRAMES[::3], strict=True), *(long(g, k) for g, k in product(GEARS, KEYFRAMES[1:3]))
+])
 def test_labels_do_not_overlap_and_stay_inside(model, keyframe):
     ax = draw(mc.Mechanism.from_xml(model), keyframe)
     boxes = rectangles(ax)
@@ -276,9 +279,9 @@ def test_a_pose_that_is_none_is_refused(overcentre, overcentre_branch):
         draw(overcentre, "up")
     with pytest.raises(mc.ParameterError, match=r"state must have shape \(6,\)"):
         draw(overcentre, np.zeros(5))
-    with pytest.raises(mc.MjcontError, match="a pose is a point, a state or a keyframe's name, got a Branch"):
+    with pytest.raises(mc.MjcontError, match="pose must be a Point, an array of numbers or a string, got the Branch"):
         draw(overcentre, overcentre_branch())
-    with pytest.raises(mc.MjcontError, match="only a Mechanism can be drawn, got a VectorField"):
+    with pytest.raises(mc.MjcontError, match="draw: mechanism must be a Mechanism, got the VectorField"):
         draw(mc.VectorField(lambda u, p: u, [0.0], {"a": 1.0}))
 
 

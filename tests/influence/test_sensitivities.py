@@ -147,6 +147,7 @@ def test_overcentres_fold_and_cusp_move_with_12_parameters_as_points_solved_agai
     check(point(), names)
 
 
+@pytest.mark.long
 def test_the_gears_cusp_moves_with_8_parameters_as_points_solved_again_do():
     check(gear_cusp(), ["m_1", "k_j", "k_sp", "l_us", "gravity_angle", "load_factor", *GEOMETRY[1:3]])
 
@@ -365,7 +366,7 @@ def test_a_guess_is_refused():
 
 @pytest.mark.parametrize("verb", [mc.sensitivities, lambda p: mc.continue_special(p, "m_1"), mc.switch_branches])
 def test_what_is_no_point_is_refused_with_what_to_write(verb):
-    with pytest.raises(mc.ParameterError, match=r'got str: take one of a branch: branch.point\("[BL]P1"\)'):
+    with pytest.raises(mc.ParameterError, match=r'got the str .LP1.: take one of a branch: branch.point\("[BL]P1"\)'):
         verb("LP1")
 
 

@@ -15,6 +15,7 @@ from problems.gears import LOCKING
 import mjcont as mc
 
 LOADS = [(1.0, -20.0), (1.0, 0.0), (0.5, 0.0), (2.5, 0.0)]  # load factor, gravity angle in deg
+EACH = pytest.mark.parametrize("load", [LOADS[0], *(pytest.param(load, marks=pytest.mark.long) for load in LOADS[1:])])
 # by load: F_ret in N, theta_ov and theta_1 in deg of FP1, FP2 and FP3 without unlock force
 FOLDS = {
     (1.0, -20.0): ((587560.448, 14.62676, -61.34410), (523846.013, -16.66378, -61.10600),
@@ -67,7 +68,7 @@ def assert_fold(fold, force, theta_ov, theta_1=None):
     assert theta_1 is None or degrees(fold, "theta_1") == pytest.approx(theta_1, abs=1e-4)
 
 
-@pytest.mark.parametrize("load", LOADS)
+@EACH
 def test_the_three_folds_around_uplock_equal_the_reference(folds, load):
     found = folds(*load)
     assert len(found) == 3
@@ -81,7 +82,7 @@ def test_with_500_newton_fp1_and_the_minimum_beside_it_equal_the_reference(folds
     assert_fold(fp2, 413839.374, -11.20767)
 
 
-@pytest.mark.parametrize("load", LOADS)
+@EACH
 def test_the_cusp_of_the_first_folds_locus_equals_the_reference(folds, load):
     locus = mc.continue_special(folds(*load)[0], "F_ul", bounds=(-1000.0, 0.0))
     cusp = next(p for p in locus.of_kind("CP") if p["theta_ov"] > 0.0)

@@ -9,6 +9,7 @@ import pytest
 import scipy.linalg
 import scipy.optimize
 from problems import reference
+from problems.marks import long
 from problems.mechanisms import branch_of, column, scaled
 from problems.reference import BOUNDS, START
 
@@ -84,7 +85,7 @@ def test_eigenvalues_read_late_are_those_of_the_points():
 # -- nothing is missed -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("force", [-411.7, -411.8, -411.806, -411.8079])
+@pytest.mark.parametrize("force", [-411.7, *map(long, (-411.8, -411.806)), -411.8079])
 def test_two_folds_close_to_their_cusp_are_both_found(force):
     gear = mc.Mechanism.from_xml("nose_gear")
     start = {"F_ret": 4e5, "F_ul": force, "gravity_angle": 0.0}
@@ -193,7 +194,7 @@ def test_observables_read_side_by_side_are_those_read_one_by_one():
     branch = branch_of("nose_gear")
     values = [{**branch.fixed, "F_ret": f} for f in branch["F_ret"]]
     one_by_one = branch.problem.measure(branch.states, values)
-    together = branch.problem.measure_along(branch.states, values[0], "F_ret", branch["F_ret"])
+    together = branch.problem.measure_along(branch.states, values[0], {"F_ret": branch["F_ret"]})
     assert together == pytest.approx(one_by_one, rel=1e-12, abs=1e-12)
 
 

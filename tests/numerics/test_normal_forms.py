@@ -26,7 +26,7 @@ def only(branch, kind):
 # -- fold and cusp --------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("curvature", [1.0, -2.5, 1e-3])
+@pytest.mark.parametrize("curvature", [1.0, -2.5, pytest.param(1e-3, marks=pytest.mark.long)])
 def test_fold_coefficient_is_that_of_the_normal_form_over_the_length_of_its_vector(curvature):
     field = seen_through(PLANE, lambda z, p: [p["mu"] + curvature * z[0] ** 2, -z[1]], {"mu": 0.0}, [0.0, 0.0])
     bounds = (-1.0, 0.5) if curvature > 0 else (-0.5, 1.0)

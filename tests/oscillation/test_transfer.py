@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from problems.marks import long
 
 import mjcont as mc
 
@@ -39,8 +40,8 @@ def test_frequencies_left_open_hold_the_resonance(tmp_path):
 
 
 @pytest.mark.parametrize(("name", "start", "driver", "hertz", "amplitude"), [
-    ("overcentre", {"F": 30.0}, "F", 0.35, 1e-3),
-    ("overcentre", {"F": 30.0}, "F", 3.3, 1e-3),
+    long("overcentre", {"F": 30.0}, "F", 0.35, 1e-3),
+    long("overcentre", {"F": 30.0}, "F", 3.3, 1e-3),
     ("von_mises_truss", {"P": 50.0}, "P", 1.0, 1e-2),
 ])
 def test_a_small_harmonic_input_gives_the_response_that_it_says(name, start, driver, hertz, amplitude):

@@ -87,7 +87,7 @@ def test_a_figure_that_fails_or_crashes_harms_no_other(scripts, tmp_path):
         assert "its process ended with code 7" in text
 
 
-@pytest.mark.parametrize("script", [BAD, DEAD], ids=["error", "crash"])
+@pytest.mark.parametrize("script", [BAD, pytest.param(DEAD, marks=pytest.mark.long)], ids=["error", "crash"])
 def test_a_failure_of_an_earlier_run_still_counts(scripts, tmp_path, script):
     (scripts / "fig02.py").write_text(script)
     reproduce([2], tmp_path, say=quiet)

@@ -10,11 +10,13 @@ import numpy as np
 from scipy import sparse
 
 import mjcont as mc
+import mjcont.numerics.points.passage as passages
 from mjcont.curves.walkers import equilibrium_detectors
 from mjcont.numerics.equations import (
     adjoint,
     algebra,
     bordered,
+    columns,
     defining,
     differences,
     newton,
@@ -62,6 +64,7 @@ class Bad:
     y = property(lambda self: np.zeros(1))
     v = property(lambda self: np.ones(self.n))
     values = property(lambda self: self.problem.values())
+    sparse_jac = property(lambda self: sparse.csc_matrix(self.local.jac))
     settings = property(lambda self: settings.Settings())
     free = property(lambda self: Free("p", -1.0, 1.0))
     corrected = property(lambda self: newton.Corrected(self.x, self.y, self.local, None, 0, 0.0, 0.0, 0.0))
@@ -206,6 +209,10 @@ CASES = {
     "box.minimise": lambda b: box.minimise(lambda u: (math.nan, np.full(b.n, math.nan)), b.v, tol=1e-6),
     "codim2.zero_hopf_coefficients": lambda b: codim2.zero_hopf_coefficients(b.problem, b.x, b.values, 1.0),
     "codim2.double_hopf_coefficients": lambda b: codim2.double_hopf_coefficients(b.problem, b.x, b.values, 1.0, 1.0),
+    "columns.scaled": lambda b: columns.scaled(b.sparse_jac, b.v, math.nan * b.v),
+    "columns.bordered": lambda b: columns.bordered(b.sparse_jac, math.nan * b.v[:, None], b.v[None], np.zeros((1, 1))),
+    "columns.largest_entries": lambda b: columns.largest_entries(b.sparse_jac),
+    "columns.weighted_sum": lambda b: columns.weighted_sum([math.nan, 1.0], [b.sparse_jac, b.sparse_jac]),
     "coordinates.layout": lambda b: coordinates.layout((), np.zeros(0), np.zeros(0), {}),
     "coordinates.with_turns": lambda b: coordinates.with_turns(
         b.slots(), [(name, "rad") for name, _ in b.problem.state_labels], b.x[None], b.many().residuals
@@ -298,7 +305,7 @@ CASES = {
     "notes.Note": lambda b: notes.Note().get(b.point()),
     "onebyone.OneByOne": walk,
     "on_loci.lyapunov_at": lambda b: on_loci.lyapunov_at(b.local),
-    "on_loci.fold_locus_detectors": lambda b: b.located(
+    "on_loci.fold_locus_detectors": lambda b: b.n > 1 or b.located(
         on_loci.fold_locus_detectors(b.system, b.fold(), b.settings)
     ),
     "on_loci.hopf_locus_detectors": lambda b: hopf_locus(b),  # noqa: PLW0108
@@ -325,9 +332,12 @@ CASES = {
     "normalform.pitchfork_coefficient": lambda b: normalform.pitchfork_coefficient(b.local, b.x),
     "normalform.crossing": lambda b: normalform.crossing(b.local, np.zeros((b.n + 1, 2)), b.x, 1.0),
     "normalform.FirstOrder": lambda b: normalform.FirstOrder(b.problem, b.x, b.values).second(b.v, 1j * b.v),
+    "passage.passage": lambda b: passages.passage(b.local, b.v, b.v, b.v),
+    "passage.runaway": lambda b: [passages.runaway(m) for m in (math.nan, math.inf, -1.0)],
+    "passage.Passage": lambda b: passages.Passage(*4 * [{"constant": 1.0}.get(b.kind, math.nan)]).rate(math.nan),
     "spanning.spanning_tree": lambda b: spanning.spanning_tree(np.zeros((0, 2)), 3),
     "spanning.heights": lambda b: spanning.heights(np.zeros(0, dtype=int)),
-    "sphere.ways_through": lambda b: sphere.ways_through(b.system, b.x, b.system.start_y(), 2, 1e-2),
+    "sphere.ways_through": lambda b: sphere.ways_through(b.system, b.x, b.system.start_y(), 0, 1e-2),
     "balance.Balance": lambda b: balance.Balance(b.system, b.settings).pieces(*b.pair),
     "balance.multiple": lambda b: balance.multiple(balance.Piece(*b.pair, 2)),
     "tracks.motion_at": lambda b: tracks.motion_at(b.point()),

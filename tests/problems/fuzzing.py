@@ -13,7 +13,7 @@ from scipy import sparse
 import mjcont as mc
 
 NASTY = (0.0, -0.0, 1e-300, -1e-12, 1e-9, 1.0, -3.0, 1e6, 1e12, 1e300, -1e300, math.nan, math.inf, -math.inf)
-SHORT = {"max_points": 10, "max_seconds": 3.0, "ds_min": 1e-3}  # a curve that cannot go on says so soon
+SHORT = {"max_points": 8, "max_seconds": 2.0, "ds_min": 1e-3}  # a curve that cannot go on says so soon
 
 
 def run(seed):

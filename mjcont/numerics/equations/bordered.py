@@ -7,9 +7,11 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 from scipy.linalg import lapack
+from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
 from mjcont.numerics.equations.algebra import singular
+from mjcont.numerics.equations.columns import bordered, largest_entries, scaled
 from mjcont.numerics.equations.problem import Array
 
 _TINY = 1e-300
@@ -19,10 +21,9 @@ _AS_LARGE = 0.99
 
 def largest_in_rows(matrix: Any) -> Array:
     """Return the largest absolute value in each row, (m,)."""
-    if isinstance(matrix, np.ndarray):
-        found: Array = np.abs(matrix).max(axis=1)
-    else:
-        found = abs(matrix).max(axis=1).toarray().ravel()
+    if not isinstance(matrix, np.ndarray):
+        return largest_entries(matrix)
+    found: Array = np.abs(matrix).max(axis=1)
     return found
 
 
@@ -40,11 +41,11 @@ class Factored:
         self._rows = row_scale(matrix)
         self._sparse = sparse.issparse(matrix)
         if self._sparse:
-            scaled = sparse.csc_matrix(sparse.diags(self._rows) @ matrix)
-            self._lu, self._singular = _sparse_factors(scaled), False
+            balanced = scaled(matrix, self._rows)
+            self._lu, self._singular = _sparse_factors(balanced), False
             if self._lu is None:
-                shift = 1e-14 * sparse.identity(scaled.shape[0], format="csc")
-                self._lu, self._singular = _sparse_factors(sparse.csc_matrix(scaled + shift)), True
+                shift = 1e-14 * sparse.identity(balanced.shape[0], format="csc")
+                self._lu, self._singular = _sparse_factors(sparse.csc_matrix(balanced + shift)), True
         else:
             self._lu, self._pivots, info = lapack.dgetrf(self._rows[:, None] * matrix)
             self._singular = info > 0
@@ -99,29 +100,17 @@ def _sparse_factors(matrix: Any) -> Any:
 
 def _parity(permutation: Array) -> float:
     """Return +1 for an even permutation, -1 for an odd one."""
-    seen = np.zeros(len(permutation), dtype=bool)
-    odd = False
-    for start in range(len(permutation)):
-        length, at = 0, start
-        while not seen[at]:
-            seen[at] = True
-            at = permutation[at]
-            length += 1
-        odd ^= length > 0 and length % 2 == 0
-    return -1.0 if odd else 1.0
+    count = len(permutation)
+    steps = sparse.csr_matrix((np.ones(count), permutation, np.arange(count + 1)), shape=(count, count))
+    cycles = int(connected_components(steps, directed=False, return_labels=False))
+    return -1.0 if (count - cycles) % 2 else 1.0
 
 
 def border(matrix: Any, columns: Array, rows: Array, corner: Array | None = None) -> Any:
     """Return [[A, B], [C, D]] with columns B (m, k), rows C (l, n) and corner D (l, k), zero by default."""
     corner = np.zeros((rows.shape[0], columns.shape[1])) if corner is None else corner
     if sparse.issparse(matrix):
-        blocks = [
-            [matrix, sparse.csc_matrix(columns) if columns.shape[1] else None],
-            [sparse.csc_matrix(rows), sparse.csc_matrix(corner) if columns.shape[1] else None],
-        ]
-        if not columns.shape[1]:
-            blocks = [[b[0]] for b in blocks]
-        return sparse.bmat(blocks, format="csc")
+        return bordered(matrix, columns, rows, corner)
     m, n = matrix.shape
     out = np.empty((m + rows.shape[0], n + columns.shape[1]))
     out[:m, :n], out[:m, n:], out[m:, :n], out[m:, n:] = matrix, columns, rows, corner

@@ -14,9 +14,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
 from mjcont.numerics.equations.bordered import border, largest_in_rows
+from mjcont.numerics.equations.columns import scaled
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array, Equations, Linearization, Pencil, Ranges, Values
 
@@ -82,7 +82,7 @@ class Local:
         """df/dx times the state scale: derivatives in scaled unknowns, (n, n)."""
         if self._jac is None:
             jac, scale = self._linearize().jac, self.problem.state_scale
-            self._jac = jac * scale if isinstance(jac, np.ndarray) else (jac @ sparse.diags(scale)).tocsc()
+            self._jac = jac * scale if isinstance(jac, np.ndarray) else scaled(jac, columns=scale)
         return self._jac
 
     @property

@@ -23,20 +23,21 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial.legendre import legvander
 from scipy.linalg import eig
 
 from mjcont.numerics.equations.algebra import eigenvalues as eigenvalues_of
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.collocation import Blocks, Orbits
 from mjcont.numerics.orbits.scheme import GAUSS, RADAU
-from mjcont.numerics.step.hermite import lagrange_each
 
 # |lambda| h from which on a scheme of degree 5 errs by 1e-6 in a period, and the part of it that is to be exceeded all
 # along the orbit; factor between the sizes of fast and slow modes
 _FAST = {RADAU: 1.0, GAUSS: 3.0}
 _EVERYWHERE, _GAP = 0.3, 1.3
-# |lambda| h of a step of its own, and how many of these are taken in all
-_STEP, _MOST = 1.0, 3000
+# |lambda| h of a step of its own, how many of these are taken in all, and how many are multiplied at once
+_STEP, _MOST = 2.0, 1500
+_TOGETHER = 4
 _ROOT = np.sqrt(15.0)
 
 
@@ -50,7 +51,7 @@ class FastModes:
     space : (d, count) an orthonormal basis of theirs at the beginning, over scaled states.
     scale : (d,) the states' sizes.
     steps : (k, d, d) what takes deviations over short steps, one after the other; None where they would be too many.
-    adiabatic : (count,) multipliers from eigenvalues.
+    adiabatic : (count,) multipliers from eigenvalues; empty where there are steps.
     """
 
     count: int
@@ -79,23 +80,30 @@ def fast_modes(orbits: Orbits, blocks: Blocks, period: float) -> FastModes | Non
     bound = _FAST[orbits.scheme.name]
     if _bound(blocks.jac, orbits.flow.c) * float(lengths.max()) < bound:
         return None
-    matrices = first_order_each(blocks.jac)
-    rates = eigenvalues_of(matrices)
+    middle = orbits.m // 2  # one point of each interval tells how many modes are fast, and how fast
+    rates = _rates(blocks.jac[:, middle : middle + 1])
     if not np.isfinite(rates).all():
         return None
-    rates = np.take_along_axis(rates, np.argsort(-np.abs(rates), axis=1, kind="stable"), axis=1)
-    sizes = np.abs(rates).reshape(orbits.intervals, orbits.m, -1)
-    turns = float((lengths * sizes[:, :, 0].max(axis=1)).sum())
-    d, unresolved = orbits.flow.d, int((sizes * lengths[:, None, None] > bound).any(axis=(0, 1)).sum())
+    sizes = np.abs(rates)
+    turns = float((lengths * sizes[:, 0]).sum())
+    unresolved = int((sizes * lengths[:, None] > bound).any(axis=0).sum())
     if not unresolved:
         return None
     few = turns / _STEP <= _MOST
-    count = _count(sizes.reshape(-1, d), unresolved, few, bound / float(lengths.min()))
+    count = _count(sizes, unresolved, few, bound / float(lengths.min()))
     if not count:
         return None
-    steps = _magnus(orbits, matrices, lengths, sizes[:, :, 0].max(axis=1)) if few else None
-    return FastModes(count, _space(matrices[0], count, orbits.sizes), orbits.sizes, steps,
-                     _adiabatic(orbits, rates[:, :count], period))
+    space = _space(first_order_each(blocks.jac[:1, :1])[0], count, orbits.sizes)
+    if few:
+        return FastModes(count, space, orbits.sizes, _magnus(orbits, blocks.jac, lengths, sizes[:, 0]), np.zeros(0))
+    every = _rates(blocks.jac)[:, :count]
+    return FastModes(count, space, orbits.sizes, None, _adiabatic(orbits, every, period))
+
+
+def _rates(jac: Array) -> Array:
+    """Return the eigenvalues at points, the largest first, from derivatives of the rates (N, m, c, d): (N m, d)."""
+    rates = eigenvalues_of(first_order_each(jac))
+    return np.take_along_axis(rates, np.argsort(-np.abs(rates), axis=1, kind="stable"), axis=1)
 
 
 def _count(sizes: Array, unresolved: int, few: bool, bound: float) -> int:
@@ -129,27 +137,41 @@ def first_order_each(jac: Array) -> Array:
     return np.concatenate([upper, matrices], axis=1)
 
 
-def _magnus(orbits: Orbits, matrices: Array, lengths: Array, fastest: Array) -> Array:
+def _magnus(orbits: Orbits, jac: Array, lengths: Array, fastest: Array) -> Array:
     """Return what takes deviations over short steps, (k, d, d); intervals have lengths and largest |lambda| (N,)."""
-    d, nodes = orbits.flow.d, orbits.scheme.c
-    known = matrices.reshape(orbits.intervals, orbits.m, d, d)
+    n, m, c, d = jac.shape
+    nodes, known = orbits.scheme.c, jac.reshape(n, m, c * d)
     if nodes[-1] == 1.0:  # the end of the interval before is the beginning of this one
         nodes = np.append(0.0, nodes)
         known = np.concatenate([np.roll(known[:, -1:], 1, axis=0), known], axis=1)
-    found = []
-    offsets = (-0.1 * _ROOT, 0.0, 0.1 * _ROOT)
-    for i, count in enumerate(np.ceil(lengths * fastest / _STEP).astype(int).tolist()):
-        h, middles = lengths[i] / count, (np.arange(count) + 0.5) / count
-        rows = np.broadcast_to(nodes, (count, len(nodes)))
-        before, here, after = (
-            np.einsum("kj,jab->kab", lagrange_each(rows, middles + side / count), known[i]) for side in offsets
-        )
-        found.append(_series(h, before, here, after))
-    return exponentials(np.concatenate(found))
+    counts = np.ceil(lengths * fastest / _STEP).astype(int)
+    steps = 1.0 / np.repeat(counts, counts)
+    first = np.repeat(np.cumsum(counts) - counts, counts)
+    middles = (np.arange(counts.sum()) - first + 0.5) * steps
+    places = middles[:, None] + steps[:, None] * np.array([-0.1 * _ROOT, 0.0, 0.1 * _ROOT])
+    last = len(nodes) - 1
+    weights = legvander(2.0 * places - 1.0, last) @ np.linalg.inv(legvander(2.0 * nodes - 1.0, last))
+    at = (weights @ np.repeat(known, counts, axis=0)).reshape(-1, 3, c, d)
+    h = (np.repeat(lengths, counts) * steps)[:, None, None]
+    unit = np.ones(d)  # velocities as large as positions, so that norms are as small as they can be
+    unit[c:] = max(float(fastest.max()), 1e-300)
+    before, here, after = (first_order_each(at[:, k : k + 1]) * unit / unit[:, None] for k in range(3))
+    found: Array = _joined(exponentials(_series(h, before, here, after))) * unit[:, None] / unit
+    return found
 
 
-def _series(h: float, before: Array, here: Array, after: Array) -> Array:
-    """Return Omega of steps h, given J at Gauss's points of each (k, d, d)."""
+def _joined(steps: Array) -> Array:
+    """Return the products of four steps each: in so few nothing that is small is lost."""
+    short = -len(steps) % _TOGETHER
+    padded = np.concatenate([steps, np.broadcast_to(np.eye(steps.shape[1]), (short, *steps.shape[1:]))])
+    first, *others = (padded[k::_TOGETHER] for k in range(_TOGETHER))
+    for other in others:
+        first = other @ first
+    return first
+
+
+def _series(h: Array, before: Array, here: Array, after: Array) -> Array:
+    """Return Omega of steps h (k, 1, 1), given J at Gauss's points of each (k, d, d)."""
     one, two, three = h * here, _ROOT / 3.0 * h * (after - before), 10.0 / 3.0 * h * (after - 2.0 * here + before)
     first = _commutator(one, two)
     second = -_commutator(one, 2.0 * three + first) / 60.0

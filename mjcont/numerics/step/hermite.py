@@ -13,6 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import sparse
 
+from mjcont.numerics.equations.columns import weighted_sum
 from mjcont.numerics.equations.problem import Array
 
 
@@ -110,7 +111,8 @@ def arc(chord: float, cosine: float) -> float:
 def combine(weights: Sequence[float], parts: Sequence[Array]) -> Array:
     """Return sum_i weights[i] * parts[i], for arrays or sparse matrices."""
     if sparse.issparse(parts[0]):
-        return sum(w * part for w, part in zip(weights[1:], parts[1:], strict=True)) + weights[0] * parts[0]
+        found: Array = weighted_sum(weights, parts)
+        return found
     stack = np.array(parts)
-    found: Array = (np.array(weights) @ stack.reshape(len(parts), -1)).reshape(stack.shape[1:])
+    found = (np.array(weights) @ stack.reshape(len(parts), -1)).reshape(stack.shape[1:])
     return found

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.histories import History
@@ -93,6 +94,7 @@ class Mode(Shown):
 
         return draw_modes([self], 1, plane)
 
+    @checked
     def displaced(self, phase: float = 0.0, amplitude: float | None = None) -> Array:
         """Return the state (nq,) at a phase in rad of the motion, the growth or decay left out.
 
@@ -108,6 +110,7 @@ class Mode(Shown):
             return float(_SHOWN / max(np.max(size / self.point.model.state_scale), _REST))
         return amplitude / max(float(np.max(size)), _REST)
 
+    @checked
     def history(self, samples: int = 65, amplitude: float | None = None) -> History:
         """Return one cycle as a time history: what a linear motion shows, its growth or decay left out.
 
@@ -157,10 +160,12 @@ class Modes(Tabular, Shown):
         """Iterate over the modes."""
         return iter(self.modes)
 
+    @checked
     def __getitem__(self, index: int) -> Mode:
         """Return a mode, the slowest at index 0."""
         return self.modes[index]
 
+    @checked
     def mode(self, number: int) -> Mode:
         """Return a mode by its number, counted from 1.
 
@@ -211,6 +216,7 @@ class Modes(Tabular, Shown):
 
         return save(self, path)
 
+    @checked
     def plot(self, numbers: Sequence[int] | None = None, *, cols: int = 4, plane: str | None = None) -> Any:
         """Draw poses of some modes (default the first six) at both ends of their swing over rest; return the figure.
 

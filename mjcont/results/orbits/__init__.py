@@ -3,11 +3,21 @@
 An orbit is stable where every Floquet multiplier, the 1 of a free period aside, lies inside the unit circle.
 """
 
-from mjcont.results.orbits.curve import CYCLES, RESPONSES, CycleBranch, OrbitPoint, SpecialOrbit, point_of
+from mjcont.results.orbits.charts import Chart
+from mjcont.results.orbits.curve import (
+    BACKBONE,
+    CYCLES,
+    MODES,
+    RESPONSES,
+    CycleBranch,
+    OrbitPoint,
+    SpecialOrbit,
+    point_of,
+)
 from mjcont.results.orbits.orbit import Orbit, orbit_of
 from mjcont.results.orbits.readings import Reading, extremes, readings
 
 __all__ = [
-    "CYCLES", "RESPONSES", "CycleBranch", "Orbit", "OrbitPoint", "Reading", "SpecialOrbit", "extremes", "orbit_of",
-    "point_of", "readings",
+    "BACKBONE", "CYCLES", "MODES", "RESPONSES", "Chart", "CycleBranch", "Orbit", "OrbitPoint", "Reading",
+    "SpecialOrbit", "extremes", "orbit_of", "point_of", "readings",
 ]
