@@ -95,6 +95,19 @@ def test_a_label_of_ones_own_has_the_numbers_that_were_drawn():
     assert 4e5 in numbers(ax.get_xticklabels())
 
 
+def test_a_label_goes_with_its_numbers_when_the_scale_is_changed_afterwards():
+    ax = drawn([1e2, 1e8], [0.0, 1.0], ("k_j", "N/m"), ("y", ""))
+    assert ax.get_xlabel().endswith("[MN/m]")
+    ax.set_xscale("log")
+    ax.figure.draw_without_rendering()
+    assert ax.get_xlabel().endswith("[N/m]")
+    label_axes(ax, ("k_j", "N/m"), ("y", ""))
+    ax.set_xscale("linear")
+    label_axes(ax, ("k_j", "N/m"), ("y", ""))
+    ax.figure.draw_without_rendering()
+    assert ax.get_xlabel().endswith("[MN/m]")
+
+
 def test_panels_that_share_an_axis_agree_on_its_unit():
     figure, (top, bottom) = new_figure(2, 1, sharex=True)
     top.plot([0.0, 5e4], [0.0, 1.0])
