@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 import pytest
 
-from mjcont.commands.progress import Gauge, Told, spoken, time_left
+from mjcont.commands.progress import Gauge, spoken, time_left
+from mjcont.commands.told import Told
 from mjcont.curves.collect import Found
 from mjcont.outside.terminal import Live
 from mjcont.studies.reporter import Range
