@@ -52,7 +52,7 @@ class Gauge:
     def __init__(self, stream: TextIO | None = None, clock: Callable[[], float] = time.monotonic) -> None:
         self._live = Live(stream) if stream is not None else None
         self._clock = clock
-        self._began = clock()
+        self._began = self._since = clock()
         self._over = threading.Event()
         self._writing = threading.Lock()
         self._thread: threading.Thread | None = None
@@ -74,13 +74,17 @@ class Gauge:
 
     def begin(self, what: str) -> None:
         """Begin with another piece of work."""
-        self._began, self._before, self._share = self._clock(), math.nan, math.nan
+        self._began = self._since = self._clock()
+        self._before = self._share = math.nan
         self._what, self._details = what, ""
 
     def tell(self, details: str, share: float = math.nan) -> None:
         """Say how far it is: in words, and which share is done where that is known."""
-        if math.isnan(self._before):
-            self._before = share
+        now = self._clock()
+        if math.isnan(self._before) and now - self._began >= _GUESS_SECONDS:  # it was done since the beginning
+            self._before, self._since = 0.0, self._began
+        elif math.isnan(self._before) or share < self._share:  # it was there, or is a share of other work
+            self._before, self._since = share, now
         self._details, self._share = details, share
 
     def count(self, done: float, total: float, noun: str = "", more: str = "") -> None:
@@ -106,7 +110,8 @@ class Gauge:
         if not self._what or seconds < _QUIET_SECONDS:
             return ""
         details = f"{self._details}, " if self._details else ""
-        return f"{self._what}: {details}{spoken(seconds)}{time_left(self._share, seconds, self._before)}"
+        left = time_left(self._share, self._clock() - self._since, self._before)
+        return f"{self._what}: {details}{spoken(seconds)}{left}"
 
     def _write(self) -> None:
         while not self._over.wait(_REDRAW_SECONDS):

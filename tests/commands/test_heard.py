@@ -64,6 +64,26 @@ def test_load_paths_tell_legs_and_where_they_are_on_one(rests: mc.Branch, heard:
     assert any(0.0 < done < 1.0 for done, _ in heard[0])
 
 
+def test_motions_tell_the_time_that_they_have_reached(rests: mc.Branch, heard: Any) -> None:
+    mc.simulate(rests.model, duration=0.1, samples=10, timestep=1e-3, progress=heard[1])
+    assert rising(heard[0])
+    assert heard[0][-1] == (pytest.approx(0.1), pytest.approx(0.1))
+
+
+def test_motions_of_fields_tell_it_too(heard: Any) -> None:
+    field = mc.VectorField(lambda u, p: [-u[0]], [1.0], {"a": 0.0})
+    mc.simulate(field, duration=1.0, progress=heard[1])
+    assert rising(heard[0])
+    assert len(heard[0]) > 3
+
+
+def test_certificates_tell_points(rests: mc.Branch, heard: Any) -> None:
+    certificate = mc.verify_stability(rests, n=3, max_steps=2000, progress=heard[1]).certificate
+    assert rising(heard[0])
+    assert certificate is not None
+    assert heard[0][-1] == (3, 3)
+
+
 def test_figures_are_told_aside_of_the_line(capsys: pytest.CaptureFixture[str]) -> None:
     with _drawing() as options:
         options["progress"](["figure 3"], 0, 2)
