@@ -55,8 +55,9 @@ def checked(verb: Callable[P, R]) -> Callable[P, R]:
             given = signature.bind(*args, **kwargs).arguments
         except TypeError:
             return verb(*args, **kwargs)  # Python says itself what is missing, or one too many
-        owner = type(next(iter(args), None)).__name__ + "." if "self" in signature.parameters else ""
-        called = owner.removesuffix(".") if verb.__name__ == "__init__" else owner + verb.__name__
+        owner = type(args[0]).__name__ if "self" in signature.parameters else ""
+        short = {"__init__": owner, "__getitem__": f"{owner}[...]"}
+        called = short.get(verb.__name__, f"{owner}.{verb.__name__}".removeprefix("."))
         for name, value in given.items():
             kind, named = signature.parameters[name].kind, [(name, value)]
             if kind is inspect.Parameter.VAR_POSITIONAL:

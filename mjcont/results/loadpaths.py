@@ -29,6 +29,7 @@ from mjcont.results.branchfiles import read_branch, write_branch
 from mjcont.results.files import FORMAT_VERSION, csv_columns, save_hdf5
 from mjcont.results.model import Model
 from mjcont.results.points import Column, Point, show
+from mjcont.results.quantities import check_name
 
 KIND = "load path"
 _SHOWN = 2
@@ -147,6 +148,7 @@ class LoadPath:
 
     def __getitem__(self, name: str) -> Array:
         """Return a column along the whole path, SI and radians; a jump lies between two rows."""
+        check_name(name)
         return np.concatenate([s[name] for s in self.segments])
 
     def unit(self, name: str) -> str:
