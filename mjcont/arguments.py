@@ -106,9 +106,9 @@ def _shown(value: Any) -> str:
     """Return a value as a message shows it: its kind, and itself where that is short."""
     if value is None or isinstance(value, type):
         return "None" if value is None else f"the class {value.__name__}"
-    text = " ".join(repr(value).split())
-    plain = isinstance(value, str | bytes | int | float | complex | list | tuple | dict) and len(text) <= _LONGEST
-    return f"the {type(value).__name__}" + (f" {text}" if plain else "")
+    plain = isinstance(value, str | bytes | int | float | complex | list | tuple | dict)
+    text = " ".join(repr(value).split()) if plain else ""
+    return f"the {type(value).__name__} {text if len(text) <= _LONGEST else ''}".rstrip()
 
 
 def _kinds(hint: Any) -> list[_Kind]:

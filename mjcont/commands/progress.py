@@ -89,7 +89,7 @@ class Gauge:
 
     def count(self, done: float, total: float, noun: str = "", more: str = "") -> None:
         """Say how many of all are done."""
-        self.tell(f"{done:g} of {total:g}{noun}{more}", done / total if total else math.nan)
+        self.tell(f"{done:.12g} of {total:.12g}{noun}{more}", done / total if total else math.nan)
 
     def end(self) -> None:
         """Wipe the line: that piece of work is over."""

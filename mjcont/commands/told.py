@@ -63,7 +63,7 @@ class Told(Reporter):
     def step(self, done: float, total: float) -> None:
         """Show how much of a known amount is done."""
         if total:
-            self._shown.tell(f"{done:g} of {total:g}" if done == int(done) else f"{100.0 * done / total:.0f} %",
+            self._shown.tell(f"{done:.12g} of {total:.12g}" if done == int(done) else f"{100.0 * done / total:.0f} %",
                              done / total)
 
     def finished(self, result: Any, files: Sequence[Path]) -> None:
