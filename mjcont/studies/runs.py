@@ -195,7 +195,7 @@ def _history(plan: Task, at: Running) -> Outcome:
     if isinstance(begin["start"], OrbitPoint | SpecialOrbit):
         begin = {"problem": begin["start"]}
     found = simulate(
-        **begin, inputs=g["inputs"], duration=g["duration"],
+        **begin, inputs=g["inputs"], duration=g["duration"], progress=at.reporter.step,
         **{key: g[key] for key in ("timestep", "integrator", "tol", "until_rest", "samples")},
     )
     files = store_curve(found, plan.name, g["csv"], at.folder)
@@ -243,7 +243,8 @@ def _certificate(plan: Task, at: Running) -> Outcome:
 
     g = plan.given
     found = verify_stability(
-        curve_of(at.done, g["branch"]), g["n"], **{key: g[key] for key in ("amplitude", "tolerance", "max_steps")}
+        curve_of(at.done, g["branch"]), g["n"], progress=at.reporter.step,
+        **{key: g[key] for key in ("amplitude", "tolerance", "max_steps")},
     )
     certificate = found.certificate
     files = [found.save(at.folder / f"{plan.name}.h5")]
