@@ -276,8 +276,12 @@ CASES = {
     "resonances.energy_slope": lambda b: resonances.energy_slope(b.kept),
     "resonances.EnergyTurns": lambda b: b.look_at_kept(resonances.EnergyTurns),
     "resonances.InternalResonance": lambda b: b.look_at_kept(resonances.InternalResonance),
+    "resonances.family_detectors": lambda b: [
+        d.value(b.kept) for d in resonances.family_detectors(b.kept_system, b.settings)
+    ],
+    "resonances.Leaving": lambda b: b.look_at_kept(resonances.Leaving),
     "switch.departures": lambda b: switch.departures(
-        b.flow, b.path, b.shift, b.system, b.x, b.y, 3, b.settings
+        b.flow, b.path, b.shift, b.system, b.x, b.y, (3, 1), b.settings
     ),
     "switch.doubled": lambda b: switch.doubled(b.flow, b.path, b.shift, b.system, b.x, b.y),
     "switch.crossing": lambda b: switch.crossing(b.system, b.x, b.y, b.point().tangent),
