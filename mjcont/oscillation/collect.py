@@ -56,9 +56,10 @@ def make_orbit(point: CurvePoint) -> Orbit:
 def verdict(orbit: Orbit, kind: str = "") -> tuple[str, int]:
     """Return stability and the number of multipliers outside the unit circle, beside those that a kind holds on it.
 
-    Where energy is kept the multipliers of a stable orbit are on the circle.
+    Where energy is kept the multipliers of a stable orbit are on the circle, and those of modes too fast for the mesh
+    tell nothing.
     """
-    sizes = np.abs(orbit.multipliers[orbit.own])
+    sizes = np.abs(orbit.multipliers[orbit.own if orbit.energy is None else orbit.own & orbit.resolved])
     if not np.isfinite(sizes).all():
         return MARGINAL, 0
     off = abs(orbit.multipliers[orbit.trivial] - 1.0) if orbit.trivial >= 0 else 0.0

@@ -144,3 +144,17 @@ def test_an_equilibrium_about_which_nothing_swings_has_no_modes():
     falling = mc.VectorField(lambda u, p: [u[1], u[0]], [0.0, 0.0], {"k": 1.0})
     with pytest.raises(mc.ParameterError, match="there is none"):
         mc.continue_modes(falling, "energy", (0.1, 1.0))
+
+
+# -- stiff bushes ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("stiffness", [1e3, 1e6])
+def test_a_mode_on_elastic_pins_begins_as_the_linear_one_and_is_stable(stiffness):
+    overcentre = mc.Mechanism.from_xml("overcentre")
+    start = {"F": 30.0, "k_j": stiffness}
+    linear = mc.modes(mc.find_equilibrium(overcentre, {**start, "c_sp": 0.0}))[0]
+    curve = mc.continue_modes(overcentre, "energy", (1e-4, 4e-4), start=start, resonances=())
+    assert curve["frequency"][0] == pytest.approx(linear.frequency, rel=1e-4)
+    assert set(curve.stability) == {"stable"} and not curve.special_points
+    assert "left out: the damping of tendon spring" in curve.notes

@@ -171,9 +171,10 @@ def own_multipliers(
     values = np.where(np.isfinite(values), values, complex(np.inf))
     first, second = _trivial(left, right, along, across)
     fast, resolved = fast_modes(orbits, blocks, period), np.ones(len(values), dtype=bool)
-    if fast is not None and fast.count < len(values):
-        resolved[:] = False
-        resolved[fast.least(scale[:, None] * (own @ vectors), len(values) - fast.count)] = True
+    if fast is not None:
+        slow = fast.least(scale[:, None] * (own @ vectors), max(len(values) - fast.count, 0))
+        values = np.concatenate([values[slow], fast.adiabatic[: len(values) - len(slow)]])
+        resolved = np.arange(len(values)) < len(slow)
     order = np.argsort(-np.abs(values), kind="stable")
     values, resolved = values[order], resolved[order]
     at = int(np.count_nonzero(np.abs(values) > 1.0))
