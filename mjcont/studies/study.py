@@ -14,6 +14,7 @@ from mjcont.errors import MjcontError
 from mjcont.outside.saving import output_folder
 from mjcont.results.model import units
 from mjcont.results.points import show
+from mjcont.studies.orbits import ORBITS
 from mjcont.studies.plans import BranchPlan, PlotPlan, Study, Task, check_study, load_study
 from mjcont.studies.reporter import Reporter
 from mjcont.studies.runs import Running, compute, curves_of, interrupted, start_of, store_curve, task_line
@@ -110,9 +111,10 @@ def _compute(study: Study, plan: BranchPlan | Task, at: Running) -> tuple[Any, l
 def _watched(study: Study, plan: Task) -> list[tuple[str, str]]:
     """Return the columns that points are shown with while a table other than a branch is computed."""
     unit_of, observables = units(study.mechanism), study.mechanism.observables
-    if plan.kind in ("cycles", "response"):  # observables of an orbit are no numbers while it is followed
+    if plan.kind in ORBITS:  # observables of an orbit are no numbers while it is followed
         name = plan.given["parameter"] or plan.given["point"].result
-        return [(name, "Hz" if name == "frequency" else unit_of.get(name, ""))] if plan.given["parameter"] else []
+        own = {"frequency": "Hz", "energy": "J"}
+        return [(name, unit_of.get(name, own.get(name, "")))] if plan.given["parameter"] else []
     plotted = [c for p in study.plots if plan.name in p.branches for c in (p.x, p.y)]
     varying = [plan.given["parameter"]] if plan.kind in ("diagram", "locus") else []
     wanted = dict.fromkeys([*varying, *(c for c in plotted if c in observables), *observables])

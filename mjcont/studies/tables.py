@@ -18,9 +18,10 @@ from mjcont.results.quantities import column_of
 from mjcont.results.units import check_wished
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
+from mjcont.studies.families import NONLINEAR
 from mjcont.studies.keys import Context, Key, Kind
 from mjcont.studies.linear import MODES, TRANSFER
-from mjcont.studies.orbits import CYCLES, ORBITS, RESPONSES, check_plotted, default_curves, plotted
+from mjcont.studies.orbits import CYCLES, FAMILY, ORBITS, RESPONSES, check_plotted, default_curves, plotted
 from mjcont.studies.schema import Table
 from mjcont.studies.waveforms import read_input
 
@@ -360,8 +361,8 @@ BARRIER = Kind("barriers", "The energy that dislodges a rest, along a branch (`b
 
 PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
     "file": Key(_plot_file, "File name ending in `.png`, `.pdf` or `.svg`, without a folder.", needed=True),
-    "x": Key(plotted, "Column: a parameter or an observable; of orbits also `period`, `frequency`, `NAME.max`, `.min`, "
-                      "`.amplitude`, `.mean`, `.rms`, of responses `.h1`, `.phase`.", needed=True),
+    "x": Key(plotted, "Column: a parameter or an observable; of orbits also `period`, `frequency`, `energy`, `NAME.max`, "
+                      "`.min`, `.amplitude`, `.mean`, `.rms`, of responses `.h1`, `.phase`.", needed=True),
     "y": Key(plotted, "The same. An observable of orbits is drawn by its largest and smallest value.", needed=True),
     "branches": Key(r.curves(*CURVES), "Names of branches, diagrams, cycles, responses, loci and paths.",
                     otherwise="all but loci and paths; if there are none, these"),
@@ -376,7 +377,7 @@ PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
 KINDS = {
     "search": SEARCH, "branch": BRANCH, "diagram": DIAGRAM, "cycles": CYCLES, "response": RESPONSES, "locus": LOCUS,
     "path": PATH, "history": HISTORY, "sensitivity": SENSITIVITY, "worst case": WORST, "map": MAP,
-    "certificate": CERTIFICATE, "barrier": BARRIER, "modes": MODES, "transfer": TRANSFER,
+    "certificate": CERTIFICATE, "barrier": BARRIER, "modes": MODES, "transfer": TRANSFER, FAMILY: NONLINEAR,
 }
 
 

@@ -220,6 +220,7 @@ BARE = np.full((3, 2, 2), math.nan)
 CASES = {
     "conserved.orbits_on": lambda b: b.keeping,
     "conserved.ConservedOrbits": lambda b: b.keeping.residual(b.keeping.joined(b.path), b.keeping.flow.values()),
+    "conserved.blur": lambda b: conserved.blur(np.full(4, ENTRIES.get(b.kind, 0.0))),
     "conserved.own_multipliers": BadMotion.kept_multipliers,
     "collocation.Orbits": lambda b: b.orbits.residual(b.x, b.values),
     "collocation.OrbitLinearization": lambda b: b.local.jac,

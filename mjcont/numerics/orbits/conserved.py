@@ -30,6 +30,8 @@ from mjcont.numerics.orbits.flow import Flow
 from mjcont.numerics.orbits.path import Path
 
 ENERGY, FREQUENCY = "energy", "frequency"
+# how far from the unit circle a multiplier is off it, and how many times what the product of all is from 1
+_CERTAIN, _TIMES = 1e-6, 10.0
 
 
 class ConservativeFlow(Flow):
@@ -179,6 +181,12 @@ def own_multipliers(
     values, resolved = values[order], resolved[order]
     at = int(np.count_nonzero(np.abs(values) > 1.0))
     return Multipliers(np.insert(values, [at, at], [first, second]), np.insert(resolved, [at, at], True), at, 2)
+
+
+def blur(multipliers: Array) -> float:
+    """Return how far from the unit circle errors may have taken the multipliers of an orbit that keeps an energy."""
+    sizes = np.log(np.maximum(np.abs(multipliers), 1e-300))
+    return float(max(_CERTAIN, _TIMES * abs(sizes.sum()))) if len(sizes) else _CERTAIN
 
 
 def _trivial(left: Array, right: Array, along: Array, across: Array) -> tuple[complex, complex]:

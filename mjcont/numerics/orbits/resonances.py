@@ -19,7 +19,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
-from mjcont.numerics.orbits.conserved import ENERGY, ConservedOrbits
+from mjcont.numerics.orbits.conserved import ENERGY, ConservedOrbits, blur
 from mjcont.numerics.orbits.defining import PeriodDoubling
 from mjcont.numerics.orbits.detectors import BranchOfCycles, FoldOfCycles, located
 from mjcont.numerics.orbits.points import multipliers_at, orbits_at, path_at
@@ -28,8 +28,8 @@ from mjcont.numerics.step.arclength import CurvePoint, advance
 from mjcont.numerics.step.notes import Note
 
 ORDERS = (3, 4)
-# how far from the unit circle a multiplier counts as on it, and how small an imaginary part is rounding
-_ON_CIRCLE, _REAL = 1e-6, 1e-6
+# how small an imaginary part is rounding
+_REAL = 1e-6
 # places are known to this part of a step
 _PLACE = 1e-10
 SLOPE = Note[float]()
@@ -38,7 +38,7 @@ SLOPE = Note[float]()
 def angles(point: CurvePoint) -> Array:
     """Return the angles of the resolved pairs on the unit circle, the smallest first, rad."""
     m = multipliers_at(point).tested
-    m = m[(np.abs(np.abs(m) - 1.0) < _ON_CIRCLE) & (m.imag > 0.0)]
+    m = m[(np.abs(np.abs(m) - 1.0) <= blur(m)) & (m.imag > 0.0)]
     return np.sort(np.angle(m))
 
 
@@ -141,14 +141,14 @@ class Leaving:
 def _doubling(point: CurvePoint) -> Array:
     """Return the real negative multipliers outside the circle."""
     m = multipliers_at(point).tested
-    found: Array = m[(np.abs(m) > 1.0 + _ON_CIRCLE) & (np.abs(m.imag) < _REAL * np.abs(m)) & (m.real < 0.0)]
+    found: Array = m[(np.abs(m) > 1.0 + blur(m)) & (np.abs(m.imag) < _REAL * np.abs(m)) & (m.real < 0.0)]
     return found
 
 
 def _turning(point: CurvePoint) -> Array:
     """Return the complex multipliers outside the circle with positive imaginary parts, the largest first."""
     m = multipliers_at(point).tested
-    found: Array = m[(np.abs(m) > 1.0 + _ON_CIRCLE) & (m.imag > _REAL * np.abs(m))]
+    found: Array = m[(np.abs(m) > 1.0 + blur(m)) & (m.imag > _REAL * np.abs(m))]
     return found
 
 
