@@ -17,6 +17,7 @@ from typing import Any as _Any
 
 from mjcont.errors import (
     BoundsError,
+    BranchWarning,
     FunctionError,
     MjcontError,
     ModelError,
@@ -136,6 +137,7 @@ __all__ = [
     "BarrierMap",
     "BoundsError",
     "Branch",
+    "BranchWarning",
     "Certificate",
     "Column",
     "ConstraintStiffness",

@@ -11,6 +11,7 @@ from typing import Any, Self
 import numpy as np
 from scipy import sparse
 
+from mjcont.arguments import checked
 from mjcont.errors import FunctionError, MjcontError, ParameterError, leaves_domain, unknown_name
 from mjcont.numerics.equations.clock import check
 from mjcont.numerics.equations.differences import (
@@ -25,6 +26,7 @@ from mjcont.results.model import Model
 from mjcont.results.quantities import (
     Observable,
     Parameter,
+    check_values,
     default_bounds,
     finite,
     finite_array,
@@ -81,6 +83,7 @@ class VectorField(Model):
     second_order = False
     state_labels: list[tuple[str, str]] = []
 
+    @checked
     def __init__(
         self,
         function: Callable[..., Any],
@@ -135,9 +138,11 @@ class VectorField(Model):
 
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the defaults for the others."""
-        for name, value in (given or {}).items():
+        given = {} if given is None else given
+        check_values(given)
+        for name, value in given.items():
             self.parameter(name).check(value)
-        return {n: p.value for n, p in self.parameters.items()} | {n: float(v) for n, v in (given or {}).items()}
+        return {n: p.value for n, p in self.parameters.items()} | {n: float(v) for n, v in given.items()}
 
     def rescaled(self, sizes: Array, *, grow: bool = False) -> Self | None:
         """Return this field with the scale that sizes of its components (n,) tell, unless one was given."""
@@ -269,6 +274,7 @@ class VectorField(Model):
 
     # -- observables -----------------------------------------------------------------------------------------
 
+    @checked
     def observe(self, name: str, function: Callable[[Array, Values], float], unit: str = "") -> None:
         """Add an observable computed by `function(u, p)`."""
         self.observables[name] = own_observable(name, unit, lambda values, x: function(x, values), self.parameters)

@@ -2,7 +2,8 @@
 
 M(q) q'' = tau(q, v, a),  a' = g(a, input),   derivatives by centred differences, in batches of a fixed number of rows
 
-with activations a of actuators that follow their control (filters, muscles) where there are any.
+with activations a of actuators that follow their control (filters, muscles) where there are any. Where there are ball
+or free joints, q is a chart's coordinates.
 """
 
 from __future__ import annotations
@@ -14,14 +15,19 @@ import numpy as np
 
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.actuators import actuator_name, actuator_of, follower, integrator
+from mjcont.models.manifold import chart_of
 from mjcont.models.resistance import resistances
 from mjcont.numerics.equations.differences import FOURTH_ORDER, SECOND_ORDER
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.results.model import Model
+from mjcont.results.orbits.charts import EDGE, Chart
 
 # rows of a batch; a step in velocity, relative to the state's scale in 1/s: accelerations are quadratic in it
 _ROWS, _SPEED = 100, 1e-2
 
+_FAR = ("{} turns by almost a full turn, as far as its rotation vector tells it: begin amid its motion, or use hinges "
+        "for a joint that goes round")
+_TURNED_OVER = "the spring of {} turns over half a turn from where it is at rest"
 _DISABLE = mujoco.mjtDisableBit
 Driven = Mapping[str, Array]
 
@@ -30,18 +36,21 @@ class Moving:
     """Accelerations of a mechanism; its parameters have the values given, but for those that are driven.
 
     `driven` maps names of parameters to values of their own in each state, (m,). Where a limit or contact carries load,
-    a cable is slack or an actuator saturates, there is no value, and `failure` is a clause that names it.
+    a cable is slack or an actuator saturates, or a rotation leaves its chart, there is no value, and `failure` is a
+    clause that names it.
 
     Attributes
     ----------
+    chart : coordinates of the poses, by default about qpos0; None where poses are vectors.
     n, na : numbers of coordinates, and of activations that follow a control.
     activation_scale : (na,) their typical sizes.
     """
 
-    def __init__(self, mechanism: Mechanism) -> None:
+    def __init__(self, mechanism: Mechanism, chart: Chart | None = None) -> None:
         self._mechanism, self._core, self.n = mechanism, mechanism._core, mechanism.n
         self._scale = mechanism.state_scale
         m, following = self._core.model, self._core.writer.inputs.following
+        self.chart = chart or chart_of(m)
         self.na = len(following)
         self.activation_scale = np.array([_activation_size(m, actuator_of(m, "act", int(i))) for i in following])
         self.failure = ""
@@ -93,15 +102,28 @@ class Moving:
         return found
 
     def _rows(self, states: Array, controls: Array | None) -> Array:
-        """Return rates at states (m, 2 nv + na), in batches of one size, the last filled up with its last row."""
-        found, evaluator, n = np.empty((len(states), self.n + self.na)), self._core.evaluator, self.n
+        """Return rates at states (m, 2 nv + na)."""
+        chart, n = self.chart, self.n
+        x, v = states[:, :n], states[:, n : 2 * n]
+        act = states[:, 2 * n :] if self.na else None
+        if chart is None:
+            return self._batched(x, v, act, controls)
+        found = self._batched(chart.poses(x), chart.speeds(x, v), act, controls)
+        found[:, :n] = chart.bends(x, v, found[:, :n])
+        self._leave_chart(found, chart, x)
+        return found
+
+    def _batched(self, poses: Array, speeds: Array, activations: Array | None, controls: Array | None) -> Array:
+        """Return qacc and rates of activations in batches of one size, the last filled up with its last row."""
+        states, evaluator = poses, self._core.evaluator
+        found = np.empty((len(states), self.n + self.na))
         size = min(_ROWS, len(states))
         for first in range(0, len(states), size):
             here = np.minimum(np.arange(first, first + size), len(states) - 1)
             count = min(size, len(states) - first)
             ctrl = None if controls is None else controls[here]
-            act = states[here, 2 * n :] if self.na else None
-            rows = evaluator.accelerations(states[here, :n], states[here, n : 2 * n], ctrl, act)
+            act = None if activations is None else activations[here]
+            rows = evaluator.accelerations(poses[here], speeds[here], ctrl, act)
             evaluator.count -= size - count
             found[first : first + count] = rows[:count]
             if evaluator.nonsmooth:
@@ -114,6 +136,18 @@ class Moving:
             if names:
                 row[:] = np.nan
                 self.failure = f"the orbit touches {', '.join(sorted(names))}"
+
+    def _leave_chart(self, rows: Array, chart: Chart, xi: Array) -> None:
+        """Let rows in which a rotation leaves its chart, or its spring turns over, have no value."""
+        m = self._core.model
+        far = chart.angles(xi) > EDGE
+        springs = m.qpos_spring[chart.places[:, :1] + np.arange(4)]
+        own = m.dof_jntid[chart.places[:, 1]]
+        turned = chart.past(xi, springs) & ((m.jnt_stiffness[own] != 0.0) | m.jnt_stiffnesspoly[own].any(axis=1))
+        for clause, at in ((_FAR, far), (_TURNED_OVER, turned)):
+            if at.any():
+                rows[at.any(axis=1)] = np.nan
+                self.failure = clause.format(", ".join(np.array(chart.joints)[at.any(axis=0)]))
 
 
 def _activation_size(model: mujoco.MjModel, actuator: int) -> float:
@@ -165,6 +199,4 @@ def unfit_for_orbits(mechanism: Mechanism) -> str:
         return "an actuator acts with a delay: set delay to 0"
     if m.na and _unfit_activation(m):
         return _unfit_activation(m)
-    if m.nq != m.nv:
-        return "it has ball or free joints, whose rotations need charts: use hinges and slides"
     return ""

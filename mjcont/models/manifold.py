@@ -5,8 +5,23 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from mjcont.models.states import coordinates_are_flat
+from mjcont.models.states import coordinates_are_flat, element_name
 from mjcont.numerics.equations.problem import Array
+from mjcont.results.orbits.charts import Chart
+
+# joints with a quaternion, and how many entries stand before it in a pose and before its rotation in a tangent step
+_TURNING = {int(mujoco.mjtJoint.mjJNT_BALL): 0, int(mujoco.mjtJoint.mjJNT_FREE): 3}
+
+
+def chart_of(model: mujoco.MjModel) -> Chart | None:
+    """Return coordinates for the poses of a model, with qpos0 as reference; None where poses are vectors."""
+    joints = [j for j in range(model.njnt) if model.jnt_type[j] in _TURNING]
+    if not joints:
+        return None
+    before = [_TURNING[model.jnt_type[j]] for j in joints]
+    places = np.column_stack([model.jnt_qposadr[joints] + before, model.jnt_dofadr[joints] + before])
+    names = tuple(element_name(model, mujoco.mjtObj.mjOBJ_JOINT, j) for j in joints)
+    return Chart(names, places, np.zeros((len(joints), 4))).about(model.qpos0)
 
 
 class Manifold:

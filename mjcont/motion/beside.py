@@ -87,7 +87,7 @@ def _check_orbit(
 
 def _measure(orbit: Orbit, amplitude: float, max_steps: int) -> _Beside | None:
     """Return what motions beside an orbit tell, None where they cannot be followed for a period."""
-    flow = flow_for(model_of(orbit.problem, "the orbit"), orbit.forcing)
+    flow = flow_for(model_of(orbit.problem, "the orbit"), orbit.forcing, orbit.chart)
     d, c, values = flow.d, flow.c, dict(orbit.parameters)
     sizes = np.maximum(flow.scale, np.ptp(orbit.path.s, axis=0))
     start = orbit.path.s[0]

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.continuation import start_from
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
@@ -63,6 +64,7 @@ class _Outcome:
     stalled: str = ""
 
 
+@checked
 def simulate(
     problem: Model | Orbit | OrbitPoint | SpecialOrbit,
     inputs: Mapping[str, Input] | None = None,
@@ -150,11 +152,11 @@ def _begun(problem: Any, case: dict[str, Any]) -> tuple[Model, dict[str, Any], f
     if orbit.activated:
         raise MjcontError("a motion begins with activations at rest, which are not those of this orbit: give simulate "
                           "the model, its inputs, and the orbit's states and velocities, and let it settle")
-    model, n = model_of(orbit.problem, "the orbit"), orbit.path.c
+    model = model_of(orbit.problem, "the orbit")
     forced = {name: _driven(orbit, name) for name in orbit.inputs(np.zeros(1))}
-    begin = {"inputs": {**forced, **(case["inputs"] or {})}, "start": orbit.constants(), "state": orbit.at(0.0)[:n]}
+    begin = {"inputs": {**forced, **(case["inputs"] or {})}, "start": orbit.constants(), "state": orbit.states[0]}
     if isinstance(model, Mechanism):
-        begin["velocity"] = orbit.at(0.0)[n:]
+        begin["velocity"] = orbit.velocities[0]
     return model, begin, _PERIODS * orbit.period
 
 
@@ -163,6 +165,7 @@ def _driven(orbit: Orbit, name: str) -> Callable[[float], float]:
     return lambda t: float(orbit.inputs(np.array([t]))[name][0])
 
 
+@checked
 def simulate_many(
     mechanism: Mechanism,
     cases: Sequence[Mapping[str, Any]],

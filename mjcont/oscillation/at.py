@@ -26,13 +26,13 @@ def orbits_at_value(branch: CycleBranch, name: str, value: float) -> list[OrbitP
     """
     if name not in branch.free:
         raise MjcontError(f"at() of a curve of orbits takes a free parameter: {', '.join(branch.free)}; got '{name}'")
-    flow = flow_for(branch.model, branch.forcing)
     column, found = branch[name] - value, []
     for i in range(len(branch)):
         a, j = float(column[i]), min(i + 1, len(branch) - 1)
         b = float(column[j])
         if a == 0.0 or a * b < 0.0:
-            near = between(branch.orbits[i], branch.orbits[j], a / (a - b) if a else 0.0)
+            flow = flow_for(branch.model, branch.forcing, branch.orbits[i].chart)
+            near = between(flow, branch.orbits[i], branch.orbits[j], a / (a - b) if a else 0.0)
             point = settled(flow, near, {**branch.parameters_at(i), name: value}, branch.orbits[i].shift, branch)
             found += [point] if point is not None else []
     return found
@@ -41,9 +41,10 @@ def orbits_at_value(branch: CycleBranch, name: str, value: float) -> list[OrbitP
 _SHARPER = 0.01
 
 
-def between(one: Orbit, other: Orbit, fraction: float) -> Path:
-    """Return what lies between two orbits of a curve."""
-    a, b = one.path, other.path.carried(one.path.mesh)
+def between(flow: ModelFlow, one: Orbit, other: Orbit, fraction: float) -> Path:
+    """Return what lies between two orbits of a curve, in the coordinates of the first."""
+    theirs = flow_for(flow.model, other.forcing, other.chart)
+    a, b = one.path, flow.taken(other.path.carried(one.path.mesh), theirs)
     s, w = ((1.0 - fraction) * x + fraction * y for x, y in ((a.s, b.s), (a.w, b.w)))
     return replace(a, s=s, w=w, period=(1.0 - fraction) * a.period + fraction * b.period)
 

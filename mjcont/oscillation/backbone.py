@@ -206,7 +206,8 @@ def _resonance(response: CycleBranch, seen: str, harmonic: int, phase: str | Non
     (name,) = response.free
     one, other = response.orbits[i], response.orbits[i + 1]
     value = (1.0 - fraction) * one.parameters[name] + fraction * other.parameters[name]
-    return replace(one, path=between(one, other, fraction), parameters={**one.parameters, name: value})
+    path = between(flow_for(response.model, response.forcing, one.chart), one, other, fraction)
+    return replace(one, path=path, parameters={**one.parameters, name: value})
 
 
 def _settled(

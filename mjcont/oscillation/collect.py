@@ -50,6 +50,7 @@ def make_orbit(point: CurvePoint) -> Orbit:
         path, flow.reading(path, values), dict(values), flow.units(), m.values, m.resolved, m.trivial,
         error_at(point), flow.model.name, flow.model, orbits_at(point).shift, flow.record(), flow.activated,
         float(flow.energies(path.s[:1], values)[0]) if isinstance(flow, Conserving) else None,
+        flow.chart,
     )
 
 
@@ -82,13 +83,10 @@ def reporter(progress: Progress | None) -> Callable[[Item], None] | None:
 
     def report(item: Item) -> None:
         nonlocal count
-        if isinstance(item, CurvePoint):
-            count += 1
-            progress(count, None)
-        elif isinstance(item, Located):
-            system_values = item.point.local.values
-            names = item.point.local.wrt
-            progress(count, Found(item.kind, {n: system_values[n] for n in names}, {}))
+        if isinstance(item, CurvePoint | Located):
+            count += isinstance(item, CurvePoint)
+            kind, local = ("", item.local) if isinstance(item, CurvePoint) else (item.kind, item.point.local)
+            progress(count, Found(kind, {n: local.values[n] for n in local.wrt}, {}))
 
     return report
 
@@ -143,7 +141,7 @@ def collect(
         kind=kind,
         name=flow.model.name,
         columns=_columns(flow, orbits, system),
-        states=_frozen(np.array([flow.state(o.path.s[0]) for o in orbits])),
+        states=_frozen(np.array([flow_at(p).state(path_at(p).s[0]) for p, _ in rows])),
         state_labels=flow.model.state_labels,
         spectra=Spectra([o.multipliers for o in orbits]),
         stability=_frozen(np.array(words, dtype="U8")),

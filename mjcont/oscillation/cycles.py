@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction, start_from
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
@@ -33,6 +34,7 @@ Start = Mapping[str, float] | Point | History
 
 
 @np.errstate(all="ignore")
+@checked
 def continue_cycles(
     origin: SpecialPoint | OrbitPoint | Orbit | Model,
     parameter: str | None = None,
@@ -67,7 +69,7 @@ def continue_cycles(
     stop : callable, optional
         `stop(point)` returns a sentence to end the curve there; `point.orbit` is its orbit.
     progress : callable, optional
-        `progress(count, special)` after each orbit and special point.
+        `progress(count, found)` after each orbit; `found.kind` is that of a special one, empty at others.
     **options
         `mesh`, `degree`, `scheme`, `tol`, `mesh_max`, `period_max`, and fields of `Settings` (ds, ds_max, ...).
 
@@ -88,7 +90,7 @@ def continue_cycles(
     if origin.kind != "HB" and origin.curve != "HB locus":
         raise MjcontError(f"{origin.label or 'the point'} is of kind {origin.kind or 'regular'}: limit cycles begin at "
                           "points of kind HB")
-    flow = flow_of(origin.model)
+    flow = flow_of(origin.model).about(origin.state)
     read = read_options(flow, options)
     name = parameter if parameter is not None else next(iter(origin.free))
     low, high = check_bounds(flow, name, bounds if bounds is not None else origin.free.get(name))
@@ -153,6 +155,7 @@ def _from_motion(
     if not low <= values[parameter] <= high:
         raise BoundsError(f"the start has {parameter} = {free.show(values[parameter])}, outside the bounds "
                           f"{free.show(low)} .. {free.show(high)}")
+    flow = flow.about(state)
     path, shift = _cycle(flow, state, values, read, duration)
     orbits = laid(flow, path, shift)
     system = System(orbits, values, [free])
@@ -161,6 +164,7 @@ def _from_motion(
 
 
 @np.errstate(all="ignore")
+@checked
 def find_cycle(
     problem: Model, start: Start | None = None, *, keyframe: str | None = None, state: Any = None, **options: Any
 ) -> Orbit:
@@ -179,6 +183,7 @@ def find_cycle(
     flow = _unforced(problem)
     read = read_options(flow, options)
     state, values, duration = _motion(problem, start, keyframe, state)
+    flow = flow.about(state)
     path, shift = _cycle(flow, state, values, read, duration)
     point = orbit_near(flow, path, values, shift, read.meshes)
     if point is None:

@@ -13,7 +13,7 @@ from mjcont.numerics.orbits.flow import Flow
 from mjcont.numerics.orbits.path import Path
 from mjcont.oscillation.forced import FREQUENCY, Forcing, forcing_parameter, split
 from mjcont.results.model import Model
-from mjcont.results.orbits import CYCLES, RESPONSES, Reading
+from mjcont.results.orbits import CYCLES, RESPONSES, Chart, Reading
 from mjcont.results.quantities import Parameter
 
 # speed, relative to what a state's own size would bring about, that counts as none
@@ -29,10 +29,17 @@ class ModelFlow(Flow):
     ----------
     model : the Mechanism or VectorField.
     forcing : what drives it, or None.
+    chart : what the coordinates are of, where a model's state is no vector; None where states are the model's own.
     """
 
     model: Model
     forcing: Forcing | None
+    chart: Chart | None = None
+
+    def about(self, state: Array) -> ModelFlow:
+        """Return the same motion in coordinates about a state of the model (nq,), or one with velocities."""
+        del state
+        return self
 
     @property
     def curve(self) -> str:

@@ -1,8 +1,12 @@
-"""A mechanism in motion: q'' = qacc(q, v) with inputs that may be periodic, and what it must not have for that."""
+"""A mechanism in motion: q'' = qacc(q, v) with inputs that may be periodic, and what it must not have for that.
+
+Where there are ball or free joints q and v are a chart's coordinates and their rates.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,10 +14,12 @@ from mjcont.errors import MjcontError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.mechanism.moving import Moving, unfit_for_orbits
 from mjcont.numerics.equations.problem import Array, Ranges, Values
-from mjcont.numerics.orbits.flow import Rates
+from mjcont.numerics.orbits.flow import Flow, Rates
+from mjcont.numerics.orbits.path import Path
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import Forcing
 from mjcont.results.model import Model
+from mjcont.results.orbits import Chart
 
 
 class MechanismFlow(ModelFlow):
@@ -21,9 +27,10 @@ class MechanismFlow(ModelFlow):
 
     order = 2
 
-    def __init__(self, mechanism: Mechanism, forcing: Forcing | None = None) -> None:
+    def __init__(self, mechanism: Mechanism, forcing: Forcing | None = None, chart: Chart | None = None) -> None:
         self.model, self.forcing = mechanism, forcing
-        self.mechanism, self._moving = mechanism, Moving(mechanism)
+        self.mechanism, self._moving = mechanism, Moving(mechanism, chart)
+        self.chart = self._moving.chart
         self.c, self.forced = mechanism.n, forcing is not None
         self.scale = np.concatenate([mechanism.state_scale, mechanism.state_scale])
 
@@ -33,9 +40,71 @@ class MechanismFlow(ModelFlow):
         return self._moving.na > 0
 
     def _split(self, states: Array) -> tuple[Array, Array, Array | None]:
-        """Return positions, velocities and activations (None where there are none) of states (k, d)."""
+        """Return poses, velocities and activations (None where there are none) of states (k, d)."""
         n = self.mechanism.n
-        return states[:, :n], states[:, n : 2 * n], states[:, 2 * n :] if self.activated else None
+        places, speeds = states[:, :n], states[:, n : 2 * n]
+        activations = states[:, 2 * n :] if self.activated else None
+        if self.chart is None:
+            return places, speeds, activations
+        return self.chart.poses(places), self.chart.speeds(places, speeds), activations
+
+    # -- the chart's coordinates, where the mechanism's poses are no vectors ---------------------------------------
+
+    def about(self, state: Array) -> MechanismFlow:
+        """Return the same motion in coordinates about a pose (nq,), or one with velocities."""
+        return self if self.chart is None else self._in(self.chart.about(state))
+
+    def _in(self, chart: Chart) -> MechanismFlow:
+        return type(self)(self.mechanism, self.forcing, chart)
+
+    def centred(self, path: Path) -> Flow:
+        """Return the same motion in a chart laid in the middle of an orbit, if the orbit comes near this one's edge."""
+        other = self.chart and self.chart.centred(path.s[:, : self.mechanism.n])
+        return self if other is self.chart or other is None else self._in(other)
+
+    def taken(self, path: Path, flow: Flow) -> Path:
+        """Return an orbit in the chart of `flow` as one in this one's."""
+        assert isinstance(flow, MechanismFlow)
+        chart, theirs = self.chart, flow.chart
+        if chart is None or theirs is None or chart.same(theirs):
+            return path
+        n, places, lengths = self.mechanism.n, path.points, path.period * path.lengths
+
+        def moved(states: Array) -> Array:
+            x = states[:, :n]
+            xi = chart.taken(x, theirs)
+            slopes = chart.slopes(xi, theirs.speeds(x, states[:, n : 2 * n]))
+            return np.hstack([xi, slopes, states[:, 2 * n :]])
+
+        states, rates = path.states(places), path.rates(places)
+        own, last = moved(states), slice(rates.shape[1] - n - self.activated, rates.shape[1] - self.activated)
+        qacc = theirs.accelerations(states[:, :n], states[:, n : 2 * n], rates[:, last])
+        rates[:, last] = chart.bends(own[:, :n], own[:, n : 2 * n], qacc)
+        if path.order == 1:
+            rates[:, :n] = own[:, n : 2 * n]
+        w = rates.reshape(path.w.shape) * lengths[:, None, None] ** path.order
+        return replace(path, s=moved(path.s), w=w)
+
+    def _laid(self, state: Array) -> Array:
+        """Return coordinates of a pose (nq,), with their rates where it has velocities beside it."""
+        if self.chart is None:
+            return state
+        nq = self.mechanism.nq
+        xi = self.chart.coordinates(state[None, :nq])
+        given = len(state) > nq
+        return np.concatenate([xi[0], *(self.chart.slopes(xi, state[None, nq:]) if given else ())])
+
+    def resting(self, state: Array, values: Values) -> Array:
+        """Return a whole state (d,) from a pose, or from one with velocities, at rest in what is not given."""
+        return super().resting(self._laid(state), values)
+
+    def state(self, state: Array) -> Array:
+        """Return the mechanism's state (nq,) of a state (d,)."""
+        return self._split(state[None])[0][0].copy()
+
+    def shown(self, state: Array) -> Array:
+        """Return pose, velocities and activations of a state (d,)."""
+        return np.concatenate([part[0] for part in self._split(state[None]) if part is not None])
 
     @property
     def touches(self) -> str:
@@ -49,13 +118,14 @@ class MechanismFlow(ModelFlow):
 
     def turns(self, state: Array, values: Values) -> Array:
         """Return a full turn for each angle in which one changes no force, infinity for the others, (2 nv,)."""
-        places = self.mechanism.periods(state[: self.mechanism.n], self.theirs(values))
+        places = self.mechanism.periods(self.state(state), self.theirs(values))
         return np.concatenate([places, np.full(self.d - len(places), np.inf)])
 
     def repeated(self) -> MechanismFlow:
         """Return the same motion with twice the period of the forcing."""
         f = self.forcing
-        return type(self)(self.mechanism, None if f is None else Forcing(f.inputs, f.parameters, 2 * f.periods))
+        forcing = None if f is None else Forcing(f.inputs, f.parameters, 2 * f.periods)
+        return type(self)(self.mechanism, forcing, self.chart)
 
     def rates(self, states: Array, phases: Array, values: Values) -> Array:
         """Return qacc at states (m, 2 nv) and phases (m,), shape (m, nv)."""
@@ -98,8 +168,8 @@ class ActuatedFlow(MechanismFlow):
 
     order = 1
 
-    def __init__(self, mechanism: Mechanism, forcing: Forcing | None = None) -> None:
-        super().__init__(mechanism, forcing)
+    def __init__(self, mechanism: Mechanism, forcing: Forcing | None = None, chart: Chart | None = None) -> None:
+        super().__init__(mechanism, forcing, chart)
         self.c = 2 * mechanism.n + self._moving.na
         self.scale = np.concatenate([self.scale, self._moving.activation_scale])
 
@@ -108,18 +178,16 @@ class ActuatedFlow(MechanismFlow):
         """How many of a state's last entries are activations of actuators."""
         return self._moving.na
 
-    def state(self, state: Array) -> Array:
-        """Return the mechanism's state (nq,) of a state (d,)."""
-        return state[: self.mechanism.n].copy()
-
     def resting(self, state: Array, values: Values) -> Array:
-        """Return a whole state (d,), its activations at rest, from positions or from these and velocities."""
-        moving = np.concatenate([state, np.zeros(2 * self.mechanism.n - len(state))])
+        """Return a whole state (d,), its activations at rest, from a pose or from one with velocities."""
+        laid = self._laid(state)
+        moving = np.concatenate([laid, np.zeros(2 * self.mechanism.n - len(laid))])
         return np.concatenate([moving, self._moving.resting(self.theirs(values))])
 
     def rates(self, states: Array, phases: Array, values: Values) -> Array:
         """Return velocities, qacc and rates of activations at states (m, d) and phases (m,), shape (m, d)."""
-        return np.hstack([self._split(states)[1], super().rates(states, phases, values)])
+        n = self.mechanism.n
+        return np.hstack([states[:, n : 2 * n], super().rates(states, phases, values)])
 
     def derivatives(
         self, states: Array, phases: Array, values: Values, wrt: Sequence[str], accurate: bool, ranges: Ranges = ()
@@ -127,14 +195,14 @@ class ActuatedFlow(MechanismFlow):
         """Return these rates with their derivatives."""
         n, m = self.mechanism.n, len(states)
         rates, jac = self._moving.derivatives(states, self.theirs(values), self.driven(phases, values), accurate)
-        value = np.hstack([self._split(states)[1], rates])
+        value = np.hstack([states[:, n : 2 * n], rates])
         upper = np.broadcast_to(np.eye(n, self.c, k=n), (m, n, self.c))
         par = self._over_parameters(states, phases, values, value, wrt, ranges)
         return Rates(value, np.concatenate([upper, jac], axis=1), par)
 
 
-def mechanism_flow(problem: Model, forcing: Forcing | None = None) -> MechanismFlow:
-    """Return the motion of a mechanism.
+def mechanism_flow(problem: Model, forcing: Forcing | None = None, chart: Chart | None = None) -> MechanismFlow:
+    """Return the motion of a mechanism, in a chart's coordinates where its poses are no vectors.
 
     Raises
     ------
@@ -145,5 +213,5 @@ def mechanism_flow(problem: Model, forcing: Forcing | None = None) -> MechanismF
     unfit = unfit_for_orbits(problem)
     if unfit:
         raise MjcontError(f"periodic motion of {problem.name} cannot be followed: {unfit}")
-    found = MechanismFlow(problem, forcing)
-    return ActuatedFlow(problem, forcing) if found.follows else found
+    found = MechanismFlow(problem, forcing, chart)
+    return ActuatedFlow(problem, forcing, chart) if found.follows else found

@@ -132,13 +132,16 @@ def moved(flow: ModelFlow, state: Array, values: dict[str, float], length: float
         rates = flow.rates(u[None], np.zeros(1), values)[0]
         return rates if flow.order == 1 else np.concatenate([u[flow.c :], rates])
 
-    lost = StartError("the motion from the start could not be followed: it diverges or has no value there")
+    def lost() -> StartError:
+        why = flow.touches or "it diverges or has no value there"
+        return StartError(f"the motion from the start could not be followed: {why}")
+
     try:
         run = solve_ivp(field, (0.0, length), state, method="LSODA", dense_output=True, rtol=_FINE, atol=_FINEST * size)
     except _LostError:
-        raise lost from None
+        raise lost() from None
     if not run.success or not np.isfinite(run.y).all():
-        raise lost
+        raise lost()
     return Motion(run.t, run.sol, turns)
 
 

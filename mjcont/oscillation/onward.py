@@ -35,7 +35,7 @@ def orbit_at(point: OrbitPoint | SpecialOrbit | Orbit) -> Orbit:
 
 def flow_at(orbit: Orbit) -> ModelFlow:
     """Return the motion that an orbit is one of."""
-    return flow_for(model_of(orbit.problem, "the orbit"), orbit.forcing)
+    return flow_for(model_of(orbit.problem, "the orbit"), orbit.forcing, orbit.chart)
 
 
 def parameter_at(point: OrbitPoint | SpecialOrbit | Orbit, parameter: str | None) -> str:

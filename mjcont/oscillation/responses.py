@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction, start_from
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
@@ -20,7 +21,7 @@ from mjcont.numerics.orbits.points import path_at
 from mjcont.oscillation.cycles import from_orbit
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import FREQUENCY, Harmonic, check_forcing, check_inputs, make_forcing
-from mjcont.oscillation.onward import orbit_at
+from mjcont.oscillation.onward import flow_at, orbit_at
 from mjcont.oscillation.starts import response_path, sampled_path
 from mjcont.oscillation.walks import Entry, Options, Stop, flow_of, read_options, run
 from mjcont.results.model import Model, check_bounds
@@ -33,6 +34,7 @@ Start = Mapping[str, float] | Point | AnyOrbit
 
 
 @np.errstate(all="ignore")
+@checked
 def continue_response(
     problem: Model | AnyOrbit,
     parameter: str | None = None,
@@ -88,11 +90,13 @@ def continue_response(
     low, high = _range(flow, parameter, bounds, values)
     unit = flow.parameter(parameter).unit
     if isinstance(start, AnyOrbit):
+        flow = flow.about(orbit_at(start).states[0])
         path, shift = _like(start, flow, values, read)
     else:
         at = start.state if isinstance(start, Point) and state is None else state
-        path = response_path(flow, start_from(problem, None, keyframe, at)[0], values, read.meshes)
-        shift = np.zeros(flow.d)
+        x, _ = start_from(problem, None, keyframe, at)
+        flow = flow.about(x)
+        path, shift = response_path(flow, x, values, read.meshes), np.zeros(flow.d)
     orbits, x = _first(flow, path, shift, values, read)
     system = System(orbits, values, [Free(parameter, low, high, unit)])
     entries = [Entry(sign, x, system.start_y(), None) for sign in check_direction(direction)]
@@ -141,7 +145,8 @@ def _like(start: AnyOrbit, flow: ModelFlow, values: dict[str, float], read: Opti
     if orbit.path.s.shape[1] != flow.d:
         raise MjcontError(f"the orbit given as start has states of {orbit.path.s.shape[1]} numbers, {flow.model.name} "
                           f"moves in {flow.d}")
-    states, meshes = orbit.path.states, read.meshes
+    own, meshes = flow_at(orbit), read.meshes
+    states = flow.taken(orbit.path, own).states if own.chart is not None else orbit.path.states
     path = sampled_path(flow, meshes.scheme, max(meshes.first, len(orbit.path.w)), states, flow.period(values), values)
     return path, orbit.shift if len(orbit.shift) else np.zeros(flow.d)
 

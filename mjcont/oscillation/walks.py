@@ -26,7 +26,7 @@ from mjcont.oscillation.fields import FieldFlow
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import Forcing, Harmonic, make_forcing
 from mjcont.results.model import Model
-from mjcont.results.orbits import CycleBranch, OrbitPoint, point_of
+from mjcont.results.orbits import Chart, CycleBranch, OrbitPoint, point_of
 from mjcont.vectorfield import VectorField
 
 # the corrector's: multipliers are read off derivatives at its last iterate
@@ -81,8 +81,8 @@ def _whole(what: str, value: Any, low: int, high: int) -> int:
     return value
 
 
-def flow_of(problem: Model, forcing: Forcing | None = None) -> ModelFlow:
-    """Return the motion of a model.
+def flow_of(problem: Model, forcing: Forcing | None = None, chart: Chart | None = None) -> ModelFlow:
+    """Return the motion of a model; `chart` as `ModelFlow` has it, by default about the model's own state.
 
     Raises
     ------
@@ -93,18 +93,18 @@ def flow_of(problem: Model, forcing: Forcing | None = None) -> ModelFlow:
         return FieldFlow(problem, forcing)
     from mjcont.oscillation.mechanisms import mechanism_flow  # MuJoCo is imported only where there is a Mechanism
 
-    return mechanism_flow(problem, forcing)
+    return mechanism_flow(problem, forcing, chart)
 
 
-def flow_for(model: Model, record: Mapping[str, Any]) -> ModelFlow:
-    """Return the motion of a model under forcing as files keep it."""
+def flow_for(model: Model, record: Mapping[str, Any], chart: Chart | None = None) -> ModelFlow:
+    """Return the motion of a model under forcing as files keep it, in the coordinates of one of its orbits."""
     if "conserves" in record:
-        return flow_as_recorded(flow_of(model), record["conserves"])
+        return flow_as_recorded(flow_of(model, None, chart), record["conserves"])
     periods = int(record.get("periods", 1))
     if not record.get("inputs"):
-        return FieldFlow(model, None, periods) if isinstance(model, VectorField) else flow_of(model)
+        return FieldFlow(model, None, periods) if isinstance(model, VectorField) else flow_of(model, None, chart)
     inputs = {n: Harmonic(a, p, h) for n, (a, p, h) in record["inputs"].items()}
-    return flow_of(model, make_forcing(model, inputs, None, periods))
+    return flow_of(model, make_forcing(model, inputs, None, periods), chart)
 
 
 def point_stop(stop: Stop | None) -> Callable[[System, CurvePoint], str | None] | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.points import Point, show
-from mjcont.results.text import Cells, Shown, Tabular
+from mjcont.results.text import Cells, Shown, Tabular, to_xarray
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -103,6 +103,17 @@ class BarrierMap(Tabular, Shown):
         from mjcont.drawing.barriers import draw_map
 
         return draw_map(self, ax, levels)
+
+    def to_xarray(self) -> Any:
+        """Return the grid as an xarray Dataset, SI and radians, units in `attrs`.
+
+        Raises
+        ------
+        MjcontError
+            If xarray is not installed.
+        """
+        (x, y), (unit_x, unit_y) = self.names, self.units
+        return to_xarray({y: (unit_y, self.y), x: (unit_x, self.x)}, {"energy": ("J", self.energy)})
 
     def _cells(self, degrees: bool) -> Iterable[Cells]:
         for name, unit, grid in zip(self.names, self.units, np.meshgrid(self.x, self.y), strict=True):

@@ -37,9 +37,11 @@ from mjcont.results.files import (
     FORMAT_VERSION,
     frozen,
     read_columns,
+    read_complex,
     read_values,
     save_hdf5,
     write_common,
+    write_complex,
     write_values,
 )
 from mjcont.results.model import Model
@@ -78,7 +80,7 @@ def write_branch(branch: Branch, f: h5py.Group, *, model: bool = True) -> None:
     Attributes(f["states"]).update(
         names=json.dumps([n for n, _ in branch.state_labels]), units=json.dumps([u for _, u in branch.state_labels])
     )
-    f["eigenvalues/real"], f["eigenvalues/imag"] = eigenvalues.real, eigenvalues.imag
+    write_complex(f, "eigenvalues", eigenvalues)
     f["stability"] = np.array([_CODES[s] for s in branch.stability], dtype=np.int8)
     Attributes(f["stability"])["meaning"] = "1 stable, 0 marginal, -1 unstable"
     f["n_unstable"] = branch.n_unstable.astype(np.int32)
@@ -106,7 +108,7 @@ def _write_mark(g: h5py.Group, mark: Mark, curve: str) -> None:
     )
     for name, vector in mark.vectors.items():
         if np.iscomplexobj(vector):
-            g[f"vectors/{name}/real"], g[f"vectors/{name}/imag"] = vector.real, vector.imag
+            write_complex(g, f"vectors/{name}", vector)
         else:
             g[f"vectors/{name}"] = vector
 
@@ -135,7 +137,7 @@ def read_branch(f: h5py.Group, problem: Model | None) -> Branch:
     labels = list(zip(json.loads(of_states["names"]), json.loads(of_states["units"]), strict=True))
     free = {k: tuple(v) for k, v in json.loads(a["free"]).items()}
     fixed = read_values(f, "fixed")
-    states, eigenvalues = frozen(f["states"][()]), f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]
+    states, eigenvalues = frozen(f["states"][()]), read_complex(f["eigenvalues"])
     held = json.loads(a.get("held", "[]"))
     problem = problem.holding(held) if problem is not None and held else problem
     late = Late(problem, states, fixed, {n: columns[n].values for n in free}, free)
@@ -178,7 +180,7 @@ def _read_certificate(f: h5py.File) -> Any:
 
 
 def _read_vector(item: h5py.Group | h5py.Dataset) -> Array:
-    found: Array = item[()] if isinstance(item, h5py.Dataset) else item["real"][()] + 1j * item["imag"][()]
+    found: Array = item[()] if isinstance(item, h5py.Dataset) else read_complex(item)
     return found
 
 

@@ -6,6 +6,7 @@ import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
@@ -95,6 +96,12 @@ class Certificate(Tabular, Shown):
             name = f"row {c.index}" + (f" ({c.label})" if c.label else "")
             lines.append(f"  {name}, {place}: {c.stability}, {c.verdict}: {c.sentence}")
         return "\n".join(lines)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw rates of simulated motions beside those of the eigenvalues and return the axes."""
+        from mjcont.drawing.charts import draw_certificate
+
+        return draw_certificate(self, ax)
 
     def _cells(self, degrees: bool) -> Iterable[Cells]:
         yield "row", "", [c.index for c in self]

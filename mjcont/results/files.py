@@ -48,11 +48,15 @@ def save_hdf5(path: str | Path, fill: Callable[[h5py.File], None]) -> Path:
 def write_common(f: h5py.Group, result: Any, *, model: bool = True) -> None:
     """Write what every result has: its columns, where it comes from, its model unless the file has that elsewhere."""
     Attributes(f).update({f"provenance_{k}": v for k, v in result.provenance.items()})
-    problem: Model | None = result.problem
-    if problem is not None and problem.mjcf is not None and model:
+    write_model(f, result.problem, text=model)
+    write_columns(f, result.columns)
+
+
+def write_model(f: h5py.Group, problem: Model | None, *, text: bool = True) -> None:
+    """Write the model's text, if it has one, and what was declared in Python."""
+    if problem is not None and problem.mjcf is not None and text:
         write_text(f, "model", problem.mjcf)
     Attributes(f)["declared"] = json.dumps(dict(problem.declared) if problem is not None else {})
-    write_columns(f, result.columns)
 
 
 def write_columns(f: h5py.Group, columns: Mapping[str, Column]) -> None:
@@ -106,6 +110,17 @@ def read_columns(f: h5py.Group) -> dict[str, Column]:
         d = group[place]
         found[name] = Column(name, Attributes(d)["unit"], Attributes(d)["role"], frozen(d[()]))
     return found
+
+
+def write_complex(f: h5py.Group, name: str, values: np.ndarray) -> None:
+    """Write a complex array as two real ones."""
+    f[f"{name}/real"], f[f"{name}/imag"] = values.real, values.imag
+
+
+def read_complex(f: h5py.Group) -> np.ndarray:
+    """Return what `write_complex` wrote."""
+    found: np.ndarray = f["real"][()] + 1j * f["imag"][()]
+    return frozen(found)
 
 
 def frozen(array: np.ndarray) -> np.ndarray:

@@ -36,7 +36,7 @@ from mjcont.results.files import (
 from mjcont.results.model import Model
 from mjcont.results.points import Column
 from mjcont.results.quantities import column_of
-from mjcont.results.text import Cells, Shown, Tabular
+from mjcont.results.text import Cells, Shown, Tabular, to_xarray
 
 KIND = "history"
 # columns that are drawn without being named
@@ -126,6 +126,17 @@ class History(Tabular, Shown):
         write_common(f, self)
         f["states"], f["velocities"] = self.states, self.velocities
         write_values(f, "fixed", self.fixed)
+
+    def to_xarray(self) -> Any:
+        """Return the columns over time as an xarray Dataset, SI and radians, units in `attrs`.
+
+        Raises
+        ------
+        MjcontError
+            If xarray is not installed.
+        """
+        columns = {c.name: (c.unit, c.values) for c in self.columns.values()}
+        return to_xarray({"time": columns.pop("time")}, columns)
 
     def _cells(self, degrees: bool) -> Iterable[Cells]:
         return ((c.name, c.unit, c.values) for c in self.columns.values())

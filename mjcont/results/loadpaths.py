@@ -22,14 +22,15 @@ from typing import Any
 import h5py
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
 from mjcont.numerics.points.passage import Passage
-from mjcont.outside.hdf5text import Attributes, write_text
+from mjcont.outside.hdf5text import Attributes
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
-from mjcont.results.files import FORMAT_VERSION, save_hdf5
+from mjcont.results.files import FORMAT_VERSION, save_hdf5, write_model
 from mjcont.results.model import Model
 from mjcont.results.points import Point, show
 from mjcont.results.text import Cells, Shown, Tabular
@@ -217,6 +218,10 @@ class LoadPath(Tabular, Shown):
         """Return a column along the whole path, SI and radians; a jump lies between two rows."""
         return np.concatenate([s[name] for s in self.segments])
 
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return the names that [...] takes."""
+        return self.segments[0].branch._ipython_key_completions_()
+
     def unit(self, name: str) -> str:
         """Return the unit of a column."""
         return self.segments[0].branch.unit(name)
@@ -232,6 +237,7 @@ class LoadPath(Tabular, Shown):
         last = self.segments[-1]
         return last.branch.row(int(last.rows()[-1]))
 
+    @checked
     def jump(self, label: str) -> Jump:
         """Return the jump with a label such as "LP1"."""
         for j in self.jumps:
@@ -257,11 +263,8 @@ class LoadPath(Tabular, Shown):
             status=self.status,
             message=self.message,
             evaluations=self.evaluations,
-            declared=json.dumps(dict(self.problem.declared) if self.problem is not None else {}),
         )
-        mjcf = self.problem.mjcf if self.problem is not None else None
-        if mjcf is not None:
-            write_text(f, "model", mjcf)
+        write_model(f, self.problem)
         for i, s in enumerate(self.segments):
             g = f.create_group(f"segments/{i}")
             write_branch(s.branch, g, model=False)
@@ -278,11 +281,16 @@ class LoadPath(Tabular, Shown):
                 Attributes(g).update(parameter=j.parameter, load=j.load, passage=astuple(j.passage))
             g["states"] = j.states
 
-    def plot(self, x: str | None = None, y: str | None = None, **options: Any) -> Any:
-        """Draw the path with arrows; default the parameter against the first observable. See `mjcont.plot`."""
+    @property
+    def axes(self) -> tuple[str, str]:
+        """The columns that a picture shows unless told otherwise: the parameter, and an observable."""
+        return self.names[0], next(iter(self.final.observables), self.names[0])
+
+    def plot(self, x: str = "", y: str = "", **options: Any) -> Any:
+        """Draw the path with arrows; by default an observable over the parameter. `options` as for `mjcont.plot`."""
         from mjcont.drawing.plotting import plot
 
-        return plot(self, x=x or self.names[0], y=y or next(iter(self.final.observables)), **options)
+        return plot(self, x=x, y=y, **options)
 
     def __str__(self) -> str:
         """Return a readable summary: the way, the pieces, the jumps, how it ended."""

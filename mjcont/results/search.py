@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 
@@ -115,6 +115,17 @@ class Equilibria(Tabular, Shown, Sequence[Equilibrium]):
     def column(self, name: str) -> Array:
         """Return a parameter, an observable or "energy" of every equilibrium, SI and radians."""
         return np.array([p.energy if name == "energy" else p[name] for p in self.points])
+
+    def plot(self, x: str = "", y: str = "energy", *, ax: Any = None) -> Any:
+        """Draw the equilibria by two columns (default the energy over an observable) and return the axes."""
+        from mjcont.drawing.charts import draw_equilibria
+
+        known = [*self.problem.parameters, *self.problem.observables, "energy"]
+        names = (x or (*self.shown, *self.problem.observables)[0], y)
+        for name in names:
+            if name not in known:
+                raise unknown_name("column", name, known)
+        return draw_equilibria(self, *names, ax)
 
     def _cells(self, degrees: bool) -> Iterable[Cells]:
         words = {"label": "label", "mirror of": "mirror_of", "stability": "stability", "unstable": "n_unstable",

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from mjcont.errors import MjcontError, ParameterError
+from mjcont.errors import MjcontError
 from mjcont.outside.csvfiles import write_table
 from mjcont.results.quantities import Parameter
 from mjcont.results.units import displayed
@@ -51,6 +51,10 @@ class ParameterTable(dict[str, Parameter]):
 
     __repr__ = __str__
 
+    def _repr_html_(self) -> str:
+        """Return the table as a notebook shows it."""
+        return f"<pre>{escape(str(self))}</pre>"
+
 
 class Shown:
     """A result whose repr is the first line of its summary; a notebook shows all of it, and completes its columns."""
@@ -67,7 +71,7 @@ class Shown:
     def _ipython_key_completions_(self) -> list[str]:
         """Return the names that [...] takes."""
         found: list[str] = []
-        for each in ("columns", "fixed", "parameters", "observables"):
+        for each in ("columns", "fixed", "quantities", "parameters", "observables", "outputs"):
             found += [n for n in getattr(self, each, ()) if n not in found]
         return found
 
@@ -101,6 +105,25 @@ class Tabular:
         return frame
 
 
+def to_xarray(dimensions: Mapping[str, tuple[str, Any]], variables: Mapping[str, tuple[str, Any]]) -> Any:
+    """Return an xarray Dataset of variables over dimensions, units in `attrs`; both map names to (unit, values).
+
+    Raises
+    ------
+    MjcontError
+        If xarray is not installed.
+    """
+    try:
+        import xarray
+    except ImportError as error:
+        raise MjcontError("to_xarray needs xarray: pip install 'mjcont[notebook]'") from error
+    over = tuple(dimensions)
+    return xarray.Dataset(
+        {name: (over[: np.ndim(values)], values, {"units": unit}) for name, (unit, values) in variables.items()},
+        {name: (name, values, {"units": unit}) for name, (unit, values) in dimensions.items()},
+    )
+
+
 def write_cells(path: str | Path, columns: Iterable[Cells], degrees: bool = True) -> Path:
     """Write columns as CSV, their units as shown; what is no number is an empty cell."""
     heads, cells = [], []
@@ -110,9 +133,3 @@ def write_cells(path: str | Path, columns: Iterable[Cells], degrees: bool = True
         turned = (values if factor == 1.0 else values * factor).tolist() if isinstance(values, np.ndarray) else values
         cells.append(["" if isinstance(v, float) and math.isnan(v) else v for v in turned])
     return write_table(path, heads, zip(*cells, strict=True))
-
-
-def check_kind(what: str, given: Any, kind: type, advice: str) -> None:
-    """Raise a ParameterError unless what a verb is given is of a kind; `advice` says what to write."""
-    if not isinstance(given, kind):
-        raise ParameterError(f"{what} must be a {kind.__name__}, got {type(given).__name__}: {advice}")

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from mjcont.errors import unknown_name
-from mjcont.studies import keys as k
+from mjcont.studies import forms as f
 from mjcont.studies import references as r
-from mjcont.studies.keys import Context, Key, Kind
+from mjcont.studies import values as v
+from mjcont.studies.keys import Context, Key, Kind, takes
 from mjcont.studies.orbits import FAMILY, POSED, RESULT, orbit_settings
 from mjcont.studies.schema import Table
 
@@ -15,6 +16,7 @@ from mjcont.studies.schema import Table
 VARIES = {"energy": "J", "frequency": "Hz"}
 
 
+@takes(f.choice(*VARIES))
 def _parameter(table: Table, key: str, context: Context) -> str:
     del context
     name = table.text(key)
@@ -23,14 +25,16 @@ def _parameter(table: Table, key: str, context: Context) -> str:
     return name
 
 
+@takes(f.PAIR)
 def _bounds(table: Table, key: str, context: Context) -> tuple[float, float]:
     del context
-    low, high = k.pair(table, key, VARIES.get(str(table.data.get("parameter", "energy")), "J"))
+    low, high = v.pair(table, key, VARIES.get(str(table.data.get("parameter", "energy")), "J"))
     if not low > 0.0:
         raise table.error(key, f"energies and frequencies are positive, got {low:g}")
     return low, high
 
 
+@takes({"type": "array", "items": f.whole(3)})
 def _resonances(table: Table, key: str, context: Context) -> tuple[int, ...]:
     del context
     given = table.data[key]
@@ -52,7 +56,7 @@ def _check(found: dict[str, Any], table: Table, context: Context) -> None:
 
 NONLINEAR = Kind("nonlinear_modes", "Large motions without damping, one family for each mode (`continue_modes`).", {
     "name": RESULT,
-    "mode": Key(k.whole(1), "Which of the modes that swing, the slowest first.", 1),
+    "mode": Key(v.whole(1), "Which of the modes that swing, the slowest first.", 1),
     "parameter": Key(_parameter, "What varies: `\"energy\"` or `\"frequency\"`.", "energy"),
     "bounds": Key(_bounds, "`[low, high]`, in J or Hz.", otherwise="needed, but for a point"),
     "point": Key(r.reference(FAMILY), "A BPC, PD, IR or another orbit of earlier nonlinear modes at which it begins.",
@@ -60,6 +64,6 @@ NONLINEAR = Kind("nonlinear_modes", "Large motions without damping, one family f
     **POSED,
     "resonances": Key(_resonances, "Periods of the orbits that begin at internal resonances which are located.", (3, 4),
                       otherwise="`[3, 4]`"),
-    "csv": Key(k.flag, "Whether to write NAME.csv: a row an orbit, angles in degrees.", False),
+    "csv": Key(v.flag, "Whether to write NAME.csv: a row an orbit, angles in degrees.", False),
     "settings": orbit_settings(),
 }, _check)

@@ -197,7 +197,7 @@ def _path(plan: Task, at: Running) -> Outcome:
     g = plan.given
     way = (g["parameter"], g["values"]) if g["parameter"] else (g["loads"], None)
     options = {**start_of(g, at.done), **{key: g[key] for key in ("landing", "max_time", "max_jumps")}, **g["settings"]}
-    found = load_path(at.mechanism, way[0], way[1], **options)
+    found = load_path(at.mechanism, way[0], way[1], progress=at.reporter.step, **options)
     return found, store_curve(found, plan.name, g["csv"], at.folder)
 
 
@@ -234,7 +234,8 @@ def _worst(plan: Task, at: Running) -> Outcome:
 
     g = plan.given
     found = worst_case(
-        point_of(at.done, g["point"]), g["ranges"], **{key: g[key] for key in ("quantity", "maximise", "grid", "tol")}
+        point_of(at.done, g["point"]), g["ranges"], progress=at.reporter.step,
+        **{key: g[key] for key in ("quantity", "maximise", "grid", "tol")},
     )
     return found, _table(found, plan, at)
 
@@ -243,7 +244,7 @@ def _map(plan: Task, at: Running) -> Outcome:
     from mjcont.influence.maps import special_map
 
     g = plan.given
-    found = special_map(point_of(at.done, g["point"]), g["grid"])
+    found = special_map(point_of(at.done, g["point"]), g["grid"], progress=at.reporter.step)
     files = _table(found, plan, at)
     if g["png"] and found.exists.any():
         options = {"kind": g["kind"]} if len(found.axes) == 2 else {}
@@ -269,7 +270,7 @@ def _barrier(plan: Task, at: Running) -> Outcome:
 
     g = plan.given
     saddles = [b for name in g["saddles"] for b in curves_of(at.done, name)]
-    found = barrier_along(curve_of(at.done, g["branch"]), saddles, search=g["search"])
+    found = barrier_along(curve_of(at.done, g["branch"]), saddles, search=g["search"], progress=at.reporter.step)
     return found, [*_table(found, plan, at), *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
 
 
@@ -278,7 +279,8 @@ def _modes(plan: Task, at: Running) -> Outcome:
 
     g = plan.given
     found = modes(point_of(at.done, g["point"]))
-    return found, [*_table(found, plan, at), *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+    files = [found.save(at.folder / f"{plan.name}.h5"), *_table(found, plan, at)]
+    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
 
 
 def _transfer(plan: Task, at: Running) -> Outcome:
@@ -289,7 +291,8 @@ def _transfer(plan: Task, at: Running) -> Outcome:
     g = plan.given
     hertz = np.geomspace(g["frequencies"][0], g["frequencies"][1], g["count"]) if g["frequencies"] else None
     found = transfer(point_of(at.done, g["point"]), g["input"], g["output"] or None, hertz)
-    return found, [*_table(found, plan, at), *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+    files = [found.save(at.folder / f"{plan.name}.h5"), *_table(found, plan, at)]
+    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
 
 
 _RUNS: Mapping[str, Callable[[Task, Running], Outcome]] = {

@@ -126,3 +126,12 @@ def test_octave_reads_the_values_of_special_points(written: dict[str, Path]) -> 
     done = subprocess.run([str(OCTAVE), "--eval", code], capture_output=True, text=True, check=False)
     label, value = done.stdout.split()
     assert (label, float(value)) == ("LP1", mc.load(file).point("LP1")["D"])
+
+
+def test_modes_and_transfer_functions_of_a_pendulum_load() -> None:
+    """A rod of length 1 m and its hinge: w0^2 = m g l / I, the response at rest 1 / (m g l)."""
+    modes, transfer = mc.load(WRITTEN / "modes.h5"), mc.load(WRITTEN / "transfer.h5")
+    inertia, stiffness = modes.mass[0, 0], modes.stiffness[0, 0]
+    assert modes[0].natural_omega == pytest.approx((stiffness / inertia) ** 0.5)
+    omega = 2.0 * np.pi * transfer.frequencies
+    assert transfer["phi"] == pytest.approx(1.0 / (stiffness - omega**2 * inertia + 1j * omega * 0.1), rel=1e-7)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from problems.pictures import colored
+from problems.pictures import colored, meeting, watched
 
 from mjcont.studies.study import load_study, run_study
 
@@ -104,7 +104,10 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]
     folder = tmp_path_factory.mktemp("study")
     (folder / "study.toml").write_text(STUDY)
     study = load_study(folder / "study.toml")
-    return folder / "out", dict(zip([p.name for p in study.plans], run_study(study, folder / "out"), strict=True))
+    with pytest.MonkeyPatch.context() as patch:
+        figures = watched(patch)
+        found = run_study(study, folder / "out")
+    return folder / "out", {**dict(zip([p.name for p in study.plans], found, strict=True)), "figures": figures}
 
 
 def rows(path: Path) -> list[dict[str, str]]:
@@ -126,6 +129,11 @@ def test_every_table_and_picture_is_looked_at(done: tuple[Path, dict[str, Any]])
 @pytest.mark.parametrize("name", PICTURES)
 def test_every_picture_shows_something(done: tuple[Path, dict[str, Any]], name: str) -> None:
     assert colored(done[0] / f"{name}.png") > 1500
+
+
+def test_no_texts_of_a_picture_meet(done: tuple[Path, dict[str, Any]]) -> None:
+    assert len(done[1]["figures"]) == len(PICTURES)
+    assert [meeting(figure) for figure in done[1]["figures"]] == [[]] * len(PICTURES)
 
 
 def test_a_map_and_the_improvements_of_a_worst_case_are_in_degrees(done: tuple[Path, dict[str, Any]]) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mjcont.numerics.equations.problem import Array, Range, Ranges, Stencil, Values, Varied
+from mjcont.numerics.orbits.path import Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +89,20 @@ class Flow(ABC):
         """Return the derivative of the period of a forced motion in a parameter."""
         del values, name
         return 0.0
+
+    def centred(self, path: Path) -> Flow:
+        """Return the same motion in coordinates that suit an orbit better, or itself where its own ones do."""
+        del path
+        return self
+
+    def taken(self, path: Path, flow: Flow) -> Path:
+        """Return an orbit in the coordinates of `flow`, the same motion in others, as one in these."""
+        del flow
+        return path
+
+    def shown(self, state: Array) -> Array:
+        """Return a state (d,) in coordinates that a user knows."""
+        return state
 
     @property
     def failure(self) -> str:

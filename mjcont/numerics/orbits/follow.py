@@ -97,7 +97,8 @@ def carried_tangent(old: System, point: CurvePoint, new: Orbits) -> Array:
     ends = []
     for sign in (1.0, -1.0):
         x, y = old.move(point.x, point.y, sign * step * point.tangent)
-        ends.append(new.joined(orbits.path(x, old.values(y)).carried(new.mesh)))
+        moved = orbits.path(x, old.values(y)).carried(new.mesh)
+        ends.append(new.joined(new.flow.taken(moved, orbits.flow)))
     direction = np.concatenate([(ends[0] - ends[1]) / (2.0 * step) / new.state_scale, point.tangent[old.n :]])
     found: Array = direction / np.linalg.norm(direction)
     return found
@@ -223,7 +224,7 @@ class Follower:
         if self._ending is not None or end.status is not Status.STEP_TOO_SMALL:
             return self._ending or end
         if touches:
-            return End(Status.CORNER, f"{touches}: its motion is smooth no farther")
+            return End(Status.CORNER, f"{touches}: its motion is followed no farther")
         if self.periods > 1 and float(np.abs(_apart(point, self.periods)).max()) < _ALIKE:
             return self._alike(system, point)
         return end
@@ -251,24 +252,28 @@ class Follower:
             self._wants = "mesh"
         elif _stale(p):
             self._wants = "phase"
+        elif _centred(p) is not orbits_at(p).flow:
+            self._wants = "coordinates"
         return (self._ending.message if self._ending else self._wants) or None
 
     def _resolved(self, system: System, point: CurvePoint) -> tuple[System, CurvePoint] | End:
         """Return the point on a mesh that resolves it, with its system; itself where it is resolved."""
         for _ in range(_MOST_MESHES):
             error, orbits = error_at(point), orbits_at(point)
-            if self.meshes.fixed or (error <= self.meshes.tol and not _stale(point)):
+            flow = _centred(point)
+            if flow is orbits.flow and (self.meshes.fixed or (error <= self.meshes.tol and not _stale(point))):
                 return system, point
             path, count = path_at(point), orbits.intervals
-            if error > self.meshes.tol:
+            if error > self.meshes.tol and not self.meshes.fixed:
                 if count >= self.meshes.most:
                     return End(Status.MESH, f"the orbit's error {error:.1e} exceeds {self.meshes.tol:g} on the largest "
                                f"mesh ({count} intervals)")
                 trial = path.carried(equidistributed(path, orbits.sizes, count))
                 wanted = count_for(trial, error_of(trial, orbits.sizes), _LASTS * self.meshes.tol)
                 count = min(max(wanted, self.meshes.first), 2 * count, self.meshes.most)
-            carried = path.carried(equidistributed(path, orbits.sizes, count))
-            other = laid(orbits.flow, carried, orbits.shift)
+            mesh = path.mesh if self.meshes.fixed else equidistributed(path, orbits.sizes, count)
+            carried = flow.taken(path.carried(mesh), orbits.flow)
+            other = laid(flow, carried, orbits.shift)
             moved = System(other, system.base, system.free)
             if self.held is not None:
                 moved = self.held(moved, other.joined(carried), point.y)
@@ -291,6 +296,11 @@ def _without_bound(p: CurvePoint) -> str:
     orbits, values = orbits_at(p), p.local.values
     where = lingering(orbits.flow, path_at(p), values, orbits.sizes)
     return f"the period grows without bound, to {_period(p):.6g} s: {where} (homoclinic, or a saddle-node on a cycle)"
+
+
+def _centred(p: CurvePoint) -> Flow:
+    """Return the motion of an orbit in coordinates that suit it."""
+    return orbits_at(p).flow.centred(path_at(p))
 
 
 def _period(p: CurvePoint) -> float:

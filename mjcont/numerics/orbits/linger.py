@@ -27,11 +27,11 @@ def lingering(flow: Flow, path: Path, values: Values, sizes: Array) -> str:
     slowest = path.s[int(np.argmin(speed))]
     found = _equilibrium(flow, slowest, values)
     if found is None or np.abs((found - slowest) / np.maximum(np.ptp(path.s, axis=0), sizes)).max() > _NEAR:
-        return f"it lingers near ({_shown(slowest)}), where there is no equilibrium any more"
+        return f"it lingers near ({_shown(flow, slowest)}), where there is no equilibrium any more"
     eigenvalues = np.linalg.eigvals(first_order(flow, found, values))
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
     rates = ", ".join(f"{v.real:.4g}" if v.imag == 0.0 else f"{v.real:.4g}{v.imag:+.4g}i" for v in eigenvalues)
-    return f"it lingers at the equilibrium ({_shown(found)}) with eigenvalues {rates} 1/s"
+    return f"it lingers at the equilibrium ({_shown(flow, found)}) with eigenvalues {rates} 1/s"
 
 
 def shrunk_to(orbits: Orbits, path: Path, values: Values, on_locus: bool) -> str:
@@ -73,5 +73,5 @@ def _equilibrium(flow: Flow, state: Array, values: Values) -> Array | None:
     return None
 
 
-def _shown(state: Array) -> str:
-    return ", ".join(f"{v:.4g}" for v in state)
+def _shown(flow: Flow, state: Array) -> str:
+    return ", ".join(f"{v:.4g}" for v in flow.shown(state))

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.histories import History
@@ -20,6 +22,8 @@ OSCILLATES, DECAYS, GROWS, FLUTTERS, NEUTRAL = "oscillates", "decays", "grows", 
 # of a model's scale, the largest entry of a shape where it is shown
 _SHOWN = 0.2
 _REST = 1e-300
+# modes that are drawn without being named
+_DRAWN = 6
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -84,6 +88,13 @@ class Mode(Shown):
             f"{self.growth:.4g} 1/s"
         return f"mode {self.number}: {rate}, {self.kind}; moves most: {', '.join(_largest(self))}"
 
+    def plot(self, *, plane: str | None = None) -> Any:
+        """Draw both ends of its swing over rest and return the figure; `animate` shows it moving."""
+        from mjcont.drawing.linear import draw_modes
+
+        return draw_modes([self], 1, plane)
+
+    @checked
     def displaced(self, phase: float = 0.0, amplitude: float | None = None) -> Array:
         """Return the state (nq,) at a phase in rad of the motion, the growth or decay left out.
 
@@ -99,6 +110,7 @@ class Mode(Shown):
             return float(_SHOWN / max(np.max(size / self.point.model.state_scale), _REST))
         return amplitude / max(float(np.max(size)), _REST)
 
+    @checked
     def history(self, samples: int = 65, amplitude: float | None = None) -> History:
         """Return one cycle as a time history: what a linear motion shows, its growth or decay left out.
 
@@ -148,10 +160,12 @@ class Modes(Tabular, Shown):
         """Iterate over the modes."""
         return iter(self.modes)
 
+    @checked
     def __getitem__(self, index: int) -> Mode:
         """Return a mode, the slowest at index 0."""
         return self.modes[index]
 
+    @checked
     def mode(self, number: int) -> Mode:
         """Return a mode by its number, counted from 1.
 
@@ -196,6 +210,13 @@ class Modes(Tabular, Shown):
             yield f"re {name}", "", entries.real
             yield f"im {name}", "", entries.imag
 
+    def save(self, path: str | Path) -> Path:
+        """Write all of it to an HDF5 file (replacing it whole or not at all) and return the path."""
+        from mjcont.results.linear.files import save
+
+        return save(self, path)
+
+    @checked
     def plot(self, numbers: Sequence[int] | None = None, *, cols: int = 4, plane: str | None = None) -> Any:
         """Draw poses of some modes (default the first six) at both ends of their swing over rest; return the figure.
 
@@ -206,7 +227,7 @@ class Modes(Tabular, Shown):
         """
         from mjcont.drawing.linear import draw_modes
 
-        return draw_modes(self, numbers, cols, plane)
+        return draw_modes([self.mode(n) for n in numbers] if numbers is not None else self.modes[:_DRAWN], cols, plane)
 
     def table(self, most: int | None = None) -> list[str]:
         """Return the table's lines, of the `most` slowest modes."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.points import Point
-from mjcont.results.text import Cells, Shown, Tabular
+from mjcont.results.text import Cells, Shown, Tabular, to_xarray
 from mjcont.results.units import per
 
 
@@ -60,12 +61,29 @@ class Transfer(Tabular, Shown):
         k = int(np.nanargmax(gain)) if np.isfinite(gain).any() else 0
         return float(self.frequencies[k]), float(gain[k])
 
+    def to_xarray(self) -> Any:
+        """Return the complex responses over frequency as an xarray Dataset, SI and radians, units in `attrs`.
+
+        Raises
+        ------
+        MjcontError
+            If xarray is not installed.
+        """
+        units = {n: per(self.units[n], self.units[self.input], False)[0] for n in self.outputs}
+        return to_xarray({"frequency": ("Hz", self.frequencies)}, {n: (units[n], self[n]) for n in self.outputs})
+
     def _cells(self, degrees: bool) -> Iterable[Cells]:
         yield "frequency", "Hz", self.frequencies
         for name in self.outputs:
             unit, factor = per(self.units[name], self.units[self.input], degrees)
             yield f"gain of {name}", unit, factor * self.gain(name)
             yield f"phase of {name}", "rad", self.phase(name)
+
+    def save(self, path: str | Path) -> Path:
+        """Write all of it to an HDF5 file (replacing it whole or not at all) and return the path."""
+        from mjcont.results.linear.files import save
+
+        return save(self, path)
 
     def plot(self, *, decibels: bool = False, degrees: bool = True) -> Any:
         """Draw gain and phase against frequency, dashed where the equilibrium is unstable; return the figure."""

@@ -3,6 +3,7 @@
 An orbit is stable where every Floquet multiplier, the 1 of a free period aside, lies inside the unit circle.
 """
 
+from mjcont.results.orbits.charts import Chart
 from mjcont.results.orbits.curve import (
     BACKBONE,
     CYCLES,
@@ -17,6 +18,6 @@ from mjcont.results.orbits.orbit import Orbit, orbit_of
 from mjcont.results.orbits.readings import Reading, extremes, readings
 
 __all__ = [
-    "BACKBONE", "CYCLES", "MODES", "RESPONSES", "CycleBranch", "Orbit", "OrbitPoint", "Reading", "SpecialOrbit",
-    "extremes", "orbit_of", "point_of", "readings",
+    "BACKBONE", "CYCLES", "MODES", "RESPONSES", "Chart", "CycleBranch", "Orbit", "OrbitPoint", "Reading",
+    "SpecialOrbit", "extremes", "orbit_of", "point_of", "readings",
 ]

@@ -14,6 +14,8 @@ Layout beside what `branchfiles` says::
     /orbits/resolved      (R, d) int8
     /orbits/trivial       (R,) int32: which multiplier is the 1 of a free period, -1 where none is
     /orbits/shift         (R, d) float64: what a state gains in a period
+    /orbits/chart         of models with ball and free joints: attribute joints (JSON), places (r, 2) and reference
+                          (R, r, 4), as `Chart` has them; states are its coordinates
 
 Multipliers are the branch's eigenvalues.
 """
@@ -35,8 +37,9 @@ from mjcont.numerics.orbits.scheme import SCHEMES, scheme
 from mjcont.outside.hdf5text import Attributes
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
-from mjcont.results.files import frozen, save_hdf5
+from mjcont.results.files import frozen, read_complex, save_hdf5
 from mjcont.results.model import Model
+from mjcont.results.orbits.charts import Chart
 from mjcont.results.orbits.curve import CycleBranch, with_orbits
 from mjcont.results.orbits.orbit import Orbit
 from mjcont.results.orbits.readings import Reading
@@ -72,12 +75,17 @@ def write_cycles(branch: CycleBranch, f: h5py.Group) -> None:
     g["trivial"] = np.array([o.trivial for o in orbits], dtype=np.int32)
     g["shift"] = np.array([np.broadcast_to(o.shift, first.path.s.shape[1]) if len(o.shift) else
                            np.zeros(first.path.s.shape[1]) for o in orbits])
+    if first.chart is not None:
+        chart = g.create_group("chart")
+        Attributes(chart)["joints"] = json.dumps(first.chart.joints)
+        chart["places"] = first.chart.places
+        chart["reference"] = np.array([o.chart.reference for o in orbits if o.chart is not None])
 
 
 def read_cycles(f: h5py.File, problem: Model | None) -> CycleBranch:
     """Return the curve of orbits in a file."""
     branch = read_branch(f, problem)
-    multipliers = [frozen(row) for row in f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]]
+    multipliers = [frozen(row) for row in read_complex(f["eigenvalues"])]
     forcing = json.loads(Attributes(f)["forcing"])
     orbits = _read_orbits(f[GROUP], branch, multipliers, forcing)
     return with_orbits(replace(branch, spectra=Spectra(multipliers)), orbits, forcing)
@@ -102,6 +110,7 @@ def _read_orbits(g: h5py.Group, branch: Branch, multipliers: Sequence[Array], fo
     a = {key: frozen(g[key][()]) for key in ("intervals", "period", "error", "mesh", "states", "rates", "points",
                                              "ends", "resolved", "trivial", "shift")}
     count, k = len(branch), int(a["intervals"].sum())
+    charts = _read_charts(g["chart"], count, a["states"].shape[1]) if "chart" in g else [None] * count
     lengths = {"mesh": k + count, "states": k + count, "rates": k, "points": k * rule.degree, "ends": k + count}
     if any(len(v) != lengths.get(key, count) for key, v in a.items()) or (a["intervals"] < 1).any():
         raise ValueError("the arrays of its orbits do not fit each other")
@@ -117,5 +126,23 @@ def _read_orbits(g: h5py.Group, branch: Branch, multipliers: Sequence[Array], fo
             path, reading, branch.parameters_at(i), all_units, multipliers[i], a["resolved"][i].astype(bool),
             int(a["trivial"][i]), float(a["error"][i]), branch.name, branch.problem, a["shift"][i], forcing, activated,
             float(branch["energy"][i]) if "conserves" in forcing else None,
+            charts[i],
         ))
     return found
+
+
+def _read_charts(g: h5py.Group, count: int, d: int) -> list[Chart]:
+    """Return the charts of the rows, whose states have d entries.
+
+    Raises
+    ------
+    ValueError
+        If they do not fit.
+    """
+    joints = tuple(json.loads(Attributes(g)["joints"]))
+    places, reference = (frozen(g[k][()]) for k in ("places", "reference"))
+    fits = places.shape == (len(joints), 2) and reference.shape == (count, len(joints), 4)
+    highest = d // 2 + len(joints) - 4, d // 2 - 3
+    if not fits or (places < 0).any() or (places > highest).any() or not np.isfinite(reference).all():
+        raise ValueError("the charts of its orbits do not fit their states")
+    return [Chart(joints, places, row) for row in reference]

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.path import Path
 from mjcont.results.histories import History
 from mjcont.results.model import Model, provenance
+from mjcont.results.orbits.charts import Chart
 from mjcont.results.orbits.readings import Reading, along, readings
 from mjcont.results.points import Column
 from mjcont.results.quantities import column_of
@@ -41,6 +43,7 @@ class Orbit(Shown):
     forcing : what drives it, as `CycleBranch.forcing`.
     activated : how many of a state's last entries are activations of actuators.
     energy : of a motion that keeps it, beyond that at rest; None of others.
+    chart : what the path's coordinates are where a mechanism has ball or free joints.
     """
 
     path: Path
@@ -57,6 +60,7 @@ class Orbit(Shown):
     forcing: Mapping[str, Any] = field(repr=False, default_factory=dict)
     activated: int = field(repr=False, default=0)
     energy: float | None = None
+    chart: Chart | None = field(repr=False, default=None)
 
     @property
     def period(self) -> float:
@@ -118,24 +122,37 @@ class Orbit(Shown):
         if self.activated:
             c = (c - self.activated) // 2
         halves = self.path.order == 2 or self.activated
-        return found[:, :c], found[:, c : 2 * c] if halves else self.path.rates(places)
+        states, rates = found[:, :c], found[:, c : 2 * c] if halves else self.path.rates(places)
+        return (states, rates) if self.chart is None else (self.chart.poses(states), self.chart.speeds(states, rates))
 
+    @checked
     def at(self, time: float) -> Array:
         """Return the state at a time, taken into the period: u, or qpos, qvel and activations one after the other."""
         turns, tau = divmod(time / self.period, 1.0)
         state: Array = self.path.states(np.array([tau]))[0]
-        return state + turns * self.shift if len(self.shift) else state
+        state = state + turns * self.shift if len(self.shift) else state
+        if self.chart is None:
+            return state
+        n = (len(state) - self.activated) // 2
+        xi, rates = state[None, :n], state[None, n : 2 * n]
+        return np.concatenate([self.chart.poses(xi)[0], self.chart.speeds(xi, rates)[0], state[2 * n :]])
 
     def __getitem__(self, name: str) -> Array:
         """Return an observable at `times`, (n,)."""
         return self.read(name, self.times)
 
-    def read(self, name: str, times: Any) -> Array:
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return the names that [...] takes."""
+        return list(self.reading.names)
+
+    @checked
+    def read(self, name: str, times: float | Sequence[float] | Array) -> Array:
         """Return an observable at times in the period, (m,): the polynomials through its values at the points."""
         tau = np.atleast_1d(np.asarray(times, dtype=float)) / self.period
         return along(self.path, self.reading, self._column(name), tau)[0]
 
-    def rate(self, name: str, times: Any) -> Array:
+    @checked
+    def rate(self, name: str, times: float | Sequence[float] | Array) -> Array:
         """Return the derivative of an observable in time, at times in the period, (m,)."""
         tau = np.atleast_1d(np.asarray(times, dtype=float)) / self.period
         return along(self.path, self.reading, self._column(name), tau)[1] / self.period
@@ -160,6 +177,7 @@ class Orbit(Shown):
             raise unknown_name("observable or parameter", name, self.units)
         return self.units[own]
 
+    @checked
     def harmonics(self, name: str, count: int = 5) -> Array:
         """Return the complex harmonics 0 .. count of an observable, (count + 1,).
 
@@ -187,6 +205,7 @@ class Orbit(Shown):
         own = (*own, self.forcing.get("conserves", {}).get("chosen_by"))
         return {n: v for n, v in self.parameters.items() if n not in own}
 
+    @checked
     def history(self, samples: int | None = None) -> History:
         """Return the period as a time history: it plots, animates and is stored like any other.
 
@@ -207,6 +226,7 @@ class Orbit(Shown):
             self.problem, provenance(self.problem), self.constants(),
         )
 
+    @checked
     def plot(self, x: str, y: str | None = None, **options: Any) -> Axes:
         """Draw the orbit: y against x, by default the rate of x; "time" may be either. Options as `plot_orbits`."""
         from mjcont.drawing.orbits import plot_orbits
