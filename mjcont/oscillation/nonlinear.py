@@ -160,6 +160,8 @@ def _unforced(problem: Model) -> ModelFlow:
     if isinstance(problem, VectorField) and problem.period is not None:
         raise MjcontError(f"{problem.name} is forced: modes are motions without inputs; give the field without them")
     found = flow_of(problem)
+    if found.chart is not None:
+        raise MjcontError(f"{problem.name} has ball or free joints: modes are followed in hinges and slides only")
     if found.activated:
         raise MjcontError(f"{problem.name} has actuators with states of their own (filters, muscles), which keep no "
                           "energy: make them motors")

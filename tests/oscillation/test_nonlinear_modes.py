@@ -158,3 +158,9 @@ def test_a_mode_on_elastic_pins_begins_as_the_linear_one_and_is_stable(stiffness
     assert curve["frequency"][0] == pytest.approx(linear.frequency, rel=1e-4)
     assert set(curve.stability) == {"stable"} and not curve.special_points
     assert "left out: the damping of tendon spring" in curve.notes
+
+
+def test_mechanisms_with_ball_joints_are_refused(tmp_path):
+    text = PENDULUM.replace('name="theta" type="hinge" axis="0 1 0"', 'name="theta" type="ball"')
+    with pytest.raises(mc.MjcontError, match="ball or free joints"):
+        mc.continue_modes(loaded(text, tmp_path), "energy", (0.1, 1.0))
