@@ -99,7 +99,7 @@ def test_a_curve_in_frequency_begins_where_its_mode_comes_within_the_bounds():
 def test_modes_are_saved_and_go_on_from_any_orbit(in_phase, tmp_path):
     field = cubic_pair()
     loaded = mc.load(in_phase.save(tmp_path / "modes.h5"), problem=field)
-    assert loaded.kind == "modes" and loaded["energy"] == pytest.approx(in_phase["energy"], rel=1e-15)
+    assert loaded.kind == "nonlinear modes" and loaded["energy"] == pytest.approx(in_phase["energy"], rel=1e-15)
     row = loaded[len(loaded) // 2]
     assert row.orbit.energy == row["energy"]
     onward = mc.continue_modes(row, "energy", (0.5 * row["energy"], 2.0 * row["energy"]), max_points=5)

@@ -41,7 +41,7 @@ def study(folder, text):
 
 def test_a_study_stores_a_family_and_goes_on_from_it(tmp_path):
     swing, onward = mc.run_study(mc.load_study(study(tmp_path, MODES)), tmp_path / "out")
-    assert swing.kind == "modes" and swing["energy"][[0, -1]] == pytest.approx([1e-3, 5.0])
+    assert swing.kind == "nonlinear modes" and swing["energy"][[0, -1]] == pytest.approx([1e-3, 5.0])
     assert swing["period"][-1] == pytest.approx(period_of_pendulum(5.0), rel=1e-9)
     assert onward.free == {"frequency": (0.5, 0.7)}
     for name in ("swing.h5", "swing.csv", "onward.h5", "energies.png"):
