@@ -19,7 +19,7 @@ from mjcont.results.orbits.orbit import Orbit
 from mjcont.results.points import Point, SpecialPoint, show
 from mjcont.results.quantities import column_of
 
-CYCLES, RESPONSES, MODES, BACKBONE = "cycles", "responses", "modes", "backbone"
+CYCLES, RESPONSES, MODES, BACKBONE = "cycles", "responses", "nonlinear modes", "backbone"
 # observables that a summary line shows
 _SHOWN = 3
 
