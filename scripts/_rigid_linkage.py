@@ -17,7 +17,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline, make_interp_spline
+from scipy.interpolate import make_interp_spline
 from scipy.optimize import brentq
 
 import mjcont as mc
