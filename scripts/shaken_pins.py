@@ -31,6 +31,7 @@ FREQUENCIES = np.array([0.16, 0.2, 0.24, 0.26, 0.28, 0.3, 0.32, 0.36])  # Hz
 FOLDS, GUSTS = (0.2, 0.24, 0.28), np.array([0.2, 0.24, 0.28, 0.32])  # Hz
 TOPS = {"F_ret": 8e3, "load_factor": 0.018}  # to which amplitudes grow evenly
 LASTS, TIMESTEP = 200.0, 2e-3  # s
+BESIDE = (0.95, 1.05)  # amplitudes in units of a fold's
 DEAD = (0.5, 15e3)  # Hz, N: what swings the gear, held 4 % above FP2, to dead centre, and its largest amplitude
 SWEPT = np.geomspace(0.05, 2.0, 121)  # frequencies in units of the lowest bush mode's
 SOFT = 1e4  # N/m, of the overcentre mechanism's pins there
@@ -62,14 +63,16 @@ class Escape:
 
 @dataclass(frozen=True, slots=True)
 class Study:
-    """All that was computed; `curves` by damping ratio over `SWEPT`, `scaled` ratios by k_j, `damped` by c_j."""
+    """All that was computed; `curves` by damping ratio over `SWEPT`, `scaled` and `fixed` ratios, `damped` by c_j."""
 
     compared: list[Compared]
     curves: Mapping[float, Array]
     scaled: Mapping[float, float]
+    fixed: float
     damped: Mapping[float, float]
     escapes: list[Escape]
     elastic_fold: float
+    kept: Mapping[float, list[bool]]
     rigid_way: tuple[Array, Array]
     elastic_way: tuple[Array, Array]
 
@@ -88,7 +91,11 @@ def compute() -> Study:
     soft, stiff = three["overcentre"], three["nose_gear_locking"]
     scaled = {k: bush_mode(stiffened(stiff, k_j=k, c_j=2e4 * np.sqrt(k / 1e8)))[1] for k in (1e7, 1e8, 1e9, 1e10)}
     escapes = [escape("F_ret", d, FREQUENCIES) for d in DAMPINGS] + [escape("load_factor", DAMPINGS[0], GUSTS)]
-    return Study(compared, by_frequency(soft, SOFT, SWEPT, RATIOS), scaled, in_band(stiff), escapes, elastic_fold(),
+    kept = {e.damping: lets_go(held(HELD, c_D=e.damping), f, np.array(BESIDE) * e.folds[f])
+            for e, f in zip(escapes[:2], (0.28, 0.24), strict=True)}
+    fixed = bush_mode(stiffened(stiff, k_j=1e10))[1]
+    curves = by_frequency(soft, SOFT, SWEPT, RATIOS)
+    return Study(compared, curves, scaled, fixed, in_band(stiff), escapes, elastic_fold(), kept,
                  *dead_centre(stiff))
 
 
@@ -129,15 +136,23 @@ def elastic_fold() -> float:
 def grown(rest: mc.Point, load: str, frequencies: Array, top: float) -> Array:
     """Return the amplitudes, growing evenly to a top, at which theta_ov leaves the lock; inf where it does not."""
     times = np.linspace(0.0, LASTS, 40001)
-    waves = [rest[load] + top * times / LASTS * np.cos(2.0 * np.pi * f * times) for f in frequencies]
-    cases = [{"inputs": {load: (times, wave)}, "start": rest} for wave in waves]
+    waves = [top * times / LASTS * np.cos(2.0 * np.pi * f * times) for f in frequencies]
+    return _left(rest, load, times, waves) * top / LASTS
+
+
+def lets_go(rest: mc.Point, frequency: float, amplitudes: Array) -> list[bool]:
+    """Return whether theta_ov leaves the lock under amplitudes of F_ret that grow over a third of the time and stay."""
+    times = np.linspace(0.0, LASTS, 40001)
+    waves = [a * np.minimum(3.0 * times / LASTS, 1.0) * np.cos(2.0 * np.pi * frequency * times) for a in amplitudes]
+    return np.isfinite(_left(rest, "F_ret", times, waves)).tolist()
+
+
+def _left(rest: mc.Point, load: str, times: Array, waves: list[Array]) -> Array:
+    """Return when theta_ov leaves the lock, in s, as waves are added to a load, inf where it does not."""
+    cases = [{"inputs": {load: (times, rest[load] + wave)}, "start": rest} for wave in waves]
     runs = mc.simulate_many(rest.problem, cases, LASTS, samples=8000, timestep=TIMESTEP)
-    return np.array([_left(h["time"], h["theta_ov"]) for h in runs]) * top / LASTS
-
-
-def _left(times: Array, angles: Array) -> float:
-    outside = np.flatnonzero((angles < AWAY[0]) | (angles > AWAY[1]))
-    return float(times[outside[0]]) if len(outside) else np.inf
+    outside = [(h["theta_ov"] < AWAY[0]) | (h["theta_ov"] > AWAY[1]) for h in runs]
+    return np.array([h["time"][np.argmax(o)] if o.any() else np.inf for h, o in zip(runs, outside, strict=True)])
 
 
 def dead_centre(shaken: Shaken) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
@@ -210,10 +225,11 @@ def findings(study: Study) -> list[Finding]:
     needed = {c.model: max(d.needed() for d in study.compared if d.model == c.model) for c in study.compared}
     factors = [f for c in study.compared for f in c.factor]
     at = {r: [float(np.interp(x, SWEPT, curve)) for x in (0.1, 1.0)] for r, curve in study.curves.items()}
-    least, lets_go = int(np.argmin(light.seen)), float(np.min(own.seen))
+    least, late = int(np.argmin(light.seen)), float(np.min(own.seen))
     weak = int(np.argmin(gust.seen))
     fold = light.folds[0.28]
     whips = float(np.degrees(rigid[1][-1]))
+    damped = list(study.damped.values())
     return [
         Finding("Responses with elastic pins are those with rigid ones, and differ by a part that falls as 1 / k_j",
                 f"powers {min(slopes):.3f} to {max(slopes):.3f}; 1 % is reached at "
@@ -235,28 +251,38 @@ def findings(study: Study) -> list[Finding]:
                 all(v[0] < 0.05 for v in at.values()) and at[0.01][1] > 2.0 * at[0.1][1] > 8.0 * at[1.0][1]),
         Finding("Damping that grows as the root of k_j damps the bush modes alike; the swing below them hardly notices",
                 "damping ratio " + ", ".join(f"{z:.4f} ({k:.0e} N/m)" for k, z in study.scaled.items())
-                + "; at 0.25 Hz the gear's swing differs from the rigid one by "
+                + f", and {study.fixed:.4f} (1e+10 N/m) with the c_j of 1e+08; at 0.25 Hz the gear's swing differs "
+                "from the rigid one by "
                 + ", ".join(f"{100 * e:.3f} % (c_j = {c:g} N s/m)" for c, e in study.damped.items()),
-                np.ptp(list(study.scaled.values())) < 0.02 and np.ptp(list(study.damped.values())) < 2e-3),
+                max(study.scaled.values()) < 1.5 * min(study.scaled.values()) and study.fixed < 0.2 * study.scaled[1e10]
+                and np.ptp(damped) < 1e-4),
         Finding("An oscillation unlocks the gear below the static fold if the strut's hinge is lightly damped",
                 f"static fold at {light.static:.0f} N; damping ratio {light.ratio:.3f}: lets go from "
                 f"{light.seen[least]:.0f} N at {light.frequencies[least]:g} Hz, its swing being lost at the fold of "
-                f"the response at {fold:.0f} N (rigid pins) and {study.elastic_fold:.0f} N (elastic)",
-                fold < light.seen[least] < light.static and abs(study.elastic_fold / fold - 1.0) < 0.05),
+                f"the response at {fold:.0f} N (rigid pins) and {study.elastic_fold:.0f} N (elastic); amplitudes kept "
+                f"at {BESIDE[0]:g} and {BESIDE[1]:g} of that: {_told(study.kept[light.damping])}",
+                fold < light.seen[least] < light.static and abs(study.elastic_fold / fold - 1.0) < 0.05
+                and study.kept[light.damping] == [False, True]),
         Finding("So does a gust",
                 f"load factor 1 + {gust.seen[weak]:.4f} cos at {gust.frequencies[weak]:g} Hz, where the static fold is "
                 f"at 1 + {gust.static:.4f}; folds of the response at "
                 + ", ".join(f"{a:.4f} ({f:g} Hz)" for f, a in gust.folds.items()),
                 gust.seen[weak] < gust.static and min(gust.folds.values()) < gust.seen[weak]),
         Finding("With the model's own damping it does not: the static fold is the safe one",
-                f"damping ratio {own.ratio:.3f}: lets go from {lets_go:.0f} N on, static fold {own.static:.0f} N",
-                lets_go > own.static),
+                f"damping ratio {own.ratio:.3f}: lets go from {late:.0f} N on, static fold {own.static:.0f} N; a fold "
+                f"of the response at {own.folds[0.24]:.0f} N (0.24 Hz) leads to a larger swing in the lock: kept at "
+                f"{BESIDE[0]:g} and {BESIDE[1]:g} of that it {_told(study.kept[own.damping])}",
+                late > own.static and not any(study.kept[own.damping])),
         Finding("At the locklinks' dead centre rigid pins mislead: they whip the locklinks through where elastic ones "
                 "give, and the gear stays locked",
                 f"rigid: {rigid[0][-1]:.0f} N, theta_ov {whips:+.0f} deg; k_j = 1e8 N/m: locked up to "
                 f"{elastic[0][-1]:.0f} N, theta_ov up to {np.degrees(elastic[1].max()):.2f} deg",
                 rigid[0][-1] < 0.7 * elastic[0][-1] and bool(np.all(elastic[1] < AWAY[1]))),
     ]
+
+
+def _told(gone: list[bool]) -> str:
+    return " and ".join("lets go" if g else "stays" for g in gone)
 
 
 def _at(c: Compared, stiffness: float) -> float:
