@@ -22,8 +22,8 @@ from mjcont.numerics.equations.problem import Array
 
 # the largest angle, rad: nearer to a full turn T^-1 loses digits; beyond the other one a chart had better be laid anew
 EDGE, NEAR_EDGE = 1.9 * math.pi, 1.5 * math.pi
-# another reference is worth it where the largest angle shrinks to this part
-_BETTER = 0.8
+# another reference is worth it where the largest angle shrinks by so much, rad
+_BETTER = 0.1
 _SERIES = [tuple((-1.0) ** j / math.factorial(k + 2 * j) for j in range(10)) for k in (4, 5)]
 
 
@@ -124,7 +124,7 @@ class Chart:
         cosines = np.einsum("kri,jri->kjr", tried, rotations).min(axis=1)  # of half the largest angle from each
         best, joints = cosines.argmax(axis=0), np.arange(len(largest))
         reached = 2.0 * np.arccos(np.clip(cosines[best, joints], -1.0, 1.0))
-        better = (largest > NEAR_EDGE) & (reached < _BETTER * largest)
+        better = (largest > NEAR_EDGE) & (reached < largest - _BETTER)
         if not better.any():
             return self
         return replace(self, reference=np.where(better[:, None], tried[best, joints], self.reference))
