@@ -160,7 +160,7 @@ def test_motions_beside_confirm_the_stability_of_cones_and_of_tumbling():
         assert mc.verify_stability(curve, n=2).certificate.holds
 
 
-# -- how far a rotation is told -------------------------------------------------------------------------------------------
+# -- how far a rotation is told --------------------------------------------------------------------------------------
 
 
 def torqued(ball, most, joint='damping="0.5"', **options):

@@ -46,8 +46,8 @@ def ball():
 
 
 def test_a_model_of_hinges_and_slides_needs_no_chart():
-    plain = mujoco.MjModel.from_xml_string('<mujoco><worldbody><body><joint/><geom size="1"/></body></worldbody></mujoco>')
-    assert chart_of(plain) is None
+    text = '<mujoco><worldbody><body><joint/><geom size="1"/></body></worldbody></mujoco>'
+    assert chart_of(mujoco.MjModel.from_xml_string(text)) is None
 
 
 def test_a_chart_knows_its_joints():
@@ -83,7 +83,7 @@ def test_accelerations_are_the_derivative_of_speeds(angle):
     ends = [right_jacobian(x + t * v + 0.5 * t * t * a) @ (v + t * a) for t in (h, -h)]
     found = ball().accelerations(x[None], v[None], a[None])
     assert found[0] == pytest.approx((ends[0] - ends[1]) / (2.0 * h), abs=1e-9)
-    assert ball().bends(x[None], v[None], found)[0] == pytest.approx(a, abs=1e-12)
+    assert ball().moving(x[None], v[None]).bends(found)[0] == pytest.approx(a, abs=1e-12)
 
 
 def test_accelerations_at_the_reference_are_the_second_rates():
@@ -125,4 +125,4 @@ def test_half_a_turn_from_where_a_spring_rests_is_seen_from_any_reference():
     chart = ball().about(np.array([-math.cos(-0.2), math.sin(0.2), 0.0, 0.0]))
     angles = np.array([[math.pi + 1.15], [math.pi + 1.25], [1.2 - math.pi + 0.05], [1.2 - math.pi - 0.05]])
     xi = np.hstack([angles, np.zeros((4, 2))])
-    assert chart.past(xi, spring)[:, 0].tolist() == [False, True, False, True]
+    assert chart.moving(xi, xi).past(spring)[:, 0].tolist() == [False, True, False, True]

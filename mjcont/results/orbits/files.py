@@ -137,9 +137,9 @@ def _read_charts(g: h5py.Group, count: int, d: int) -> list[Chart]:
     ValueError
         If they do not fit.
     """
-    joints, (places, reference) = tuple(json.loads(g.attrs["joints"])), (frozen(g[k][()]) for k in ("places", "reference"))
+    joints, places, reference = json.loads(g.attrs["joints"]), frozen(g["places"][()]), frozen(g["reference"][()])
     fits = places.shape == (len(joints), 2) and reference.shape == (count, len(joints), 4)
     highest = d // 2 + len(joints) - 4, d // 2 - 3
     if not fits or (places < 0).any() or (places > highest).any() or not np.isfinite(reference).all():
         raise ValueError("the charts of its orbits do not fit their states")
-    return [Chart(joints, places, row) for row in reference]
+    return [Chart(tuple(joints), places, row) for row in reference]
