@@ -113,6 +113,13 @@ def test_a_free_body_that_turns_far_moves_as_scipy_says():
     assert velocity == pytest.approx(orbit.velocities[0], abs=1e-6)
 
 
+def test_a_rod_that_nothing_keeps_from_spinning_is_not_driven_round():
+    loose = rod(True, joint='damping="0.3"')
+    forcing = {"F": mc.Harmonic(1.0), "G": mc.Harmonic(1.0, phase=-math.pi / 2)}
+    with pytest.raises(mc.StartError, match="nothing opposes rotation about z"):
+        mc.continue_response(loose, "frequency", (0.5, 0.56), forcing)
+
+
 # -- cycles ------------------------------------------------------------------------------------------------------------
 
 
