@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
+from mjcont.commands.progress import spoken, time_left
 from mjcont.outside.saving import write_file
 
 FAILED, MISSING = "failed", "missing"
@@ -67,7 +68,9 @@ class Book:
         began = time.monotonic()
         with _interrupts() as stopped:
             for number, job in enumerate(plan, 1):
-                where = f"[{number}/{len(plan)}, {time.monotonic() - began:.0f} s] {job.section}: {job.name}"
+                seconds = time.monotonic() - began
+                far = f"{number}/{len(plan)}, {spoken(seconds)}{time_left((number - 1) / len(plan), seconds)}"
+                where = f"[{far}] {job.section}: {job.name}"
                 row = self._measured(job, where, stopped)
                 stopped()
                 self.add(job.section, job.name, row)

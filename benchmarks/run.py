@@ -149,7 +149,7 @@ def plan(quick: bool, repeats: int) -> Iterator[Job]:
         diagrams = Diagrams(name, repeats)
         for chord in _DEFAULT if quick else _CHORDS:
             yield Job(DIAGRAM, f"{name}, {chord:.0e}", partial(diagrams.compare, chord))
-    for name in orbits.CASES:
+    for name in (*orbits.CASES, orbits.FIELD):
         if not (quick and name == "nose gear full"):
             yield Job(ORBITS, name, partial(orbits.compare, name, min(repeats, 5)))
     if quick:

@@ -17,6 +17,7 @@ from typing import Any as _Any
 
 from mjcont.errors import (
     BoundsError,
+    BranchWarning,
     FunctionError,
     MjcontError,
     ModelError,
@@ -52,10 +53,12 @@ if TYPE_CHECKING:
     from mjcont.motion.histories import simulate, simulate_many
     from mjcont.motion.loadpaths import load_path
     from mjcont.numerics.equations.settings import Settings
+    from mjcont.oscillation.backbone import backbone
     from mjcont.oscillation.cycles import continue_cycles, find_cycle
     from mjcont.oscillation.forced import Harmonic
     from mjcont.oscillation.loci import continue_special
     from mjcont.oscillation.modes import modes
+    from mjcont.oscillation.nonlinear import continue_modes
     from mjcont.oscillation.responses import continue_response
     from mjcont.oscillation.transfer import transfer
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
@@ -64,7 +67,7 @@ if TYPE_CHECKING:
     from mjcont.results.formats import load
     from mjcont.results.histories import History
     from mjcont.results.linear import Mode, Modes, Transfer
-    from mjcont.results.loadpaths import Jump, LoadPath, Segment
+    from mjcont.results.loadpaths import Delay, Jump, LoadPath, Segment
     from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
     from mjcont.results.orbits import CycleBranch, Orbit
     from mjcont.results.points import Column, Point, SpecialPoint
@@ -81,7 +84,9 @@ _HOMES = {
     "mjcont.curves.continuation": ("continue_equilibria", "find_equilibrium", "iterate_equilibria"),
     "mjcont.curves.diagram": ("bifurcation_diagram", "switch_branches"),
     "mjcont.curves.extension": ("extend",),
+    "mjcont.oscillation.backbone": ("backbone",),
     "mjcont.oscillation.loci": ("continue_special",),
+    "mjcont.oscillation.nonlinear": ("continue_modes",),
     "mjcont.curves.search": ("find_equilibria",),
     "mjcont.curves.stiffness": ("stiffness_study",),
     "mjcont.drawing.animation": ("animate",),
@@ -110,7 +115,7 @@ _HOMES = {
     "mjcont.results.certificates": ("Certificate",),
     "mjcont.results.formats": ("load",),
     "mjcont.results.histories": ("History",),
-    "mjcont.results.loadpaths": ("Jump", "LoadPath", "Segment"),
+    "mjcont.results.loadpaths": ("Delay", "Jump", "LoadPath", "Segment"),
     "mjcont.results.maps": ("FollowedPoint", "SpecialMap", "WorstCase"),
     "mjcont.results.linear": ("Mode", "Modes", "Transfer"),
     "mjcont.results.orbits": ("CycleBranch", "Orbit"),
@@ -132,10 +137,12 @@ __all__ = [
     "BarrierMap",
     "BoundsError",
     "Branch",
+    "BranchWarning",
     "Certificate",
     "Column",
     "ConstraintStiffness",
     "CycleBranch",
+    "Delay",
     "Diagram",
     "Equilibria",
     "Equilibrium",
@@ -174,6 +181,7 @@ __all__ = [
     "add_bushes",
     "add_poses",
     "animate",
+    "backbone",
     "barrier_along",
     "barrier_map",
     "bifurcation_diagram",
@@ -181,6 +189,7 @@ __all__ = [
     "constraint_stiffness",
     "continue_cycles",
     "continue_equilibria",
+    "continue_modes",
     "continue_response",
     "continue_special",
     "draw",

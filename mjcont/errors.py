@@ -49,6 +49,10 @@ class ModelWarning(UserWarning):
     """A feature of a model that is left out, with the reason."""
 
 
+class BranchWarning(UserWarning):
+    """A start at which several branches meet, one of which is followed."""
+
+
 class RangeWarning(UserWarning):
     """A value outside the range that its parameter declares, often one in another unit."""
 

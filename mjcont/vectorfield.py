@@ -11,6 +11,7 @@ from typing import Any, Self
 import numpy as np
 from scipy import sparse
 
+from mjcont.arguments import checked
 from mjcont.errors import FunctionError, MjcontError, ParameterError, leaves_domain, unknown_name
 from mjcont.numerics.equations.clock import check
 from mjcont.numerics.equations.differences import (
@@ -25,6 +26,7 @@ from mjcont.results.model import Model
 from mjcont.results.quantities import (
     Observable,
     Parameter,
+    check_values,
     default_bounds,
     finite,
     finite_array,
@@ -37,6 +39,8 @@ from mjcont.results.quantities import (
 _FAR, _LEAST = 20.0, 1e-3
 # components all below this part of the scale are zero, as far as equations without a scale can tell
 _NOTHING = 1e-8
+# states at which the function is called between looks at the clock
+_TOGETHER = 32
 
 
 class VectorField(Model):
@@ -65,6 +69,9 @@ class VectorField(Model):
     period : callable, optional
         `period(p)` returns the period of the forcing, in s. Such a field has responses (`continue_response`), no
         equilibria.
+    energy : callable, optional
+        `energy(u, p)` returns what the motion keeps, where it keeps it: its orbits are then nonlinear normal modes
+        (`continue_modes`).
 
     Raises
     ------
@@ -76,6 +83,7 @@ class VectorField(Model):
     second_order = False
     state_labels: list[tuple[str, str]] = []
 
+    @checked
     def __init__(
         self,
         function: Callable[..., Any],
@@ -89,8 +97,9 @@ class VectorField(Model):
         bounds: Mapping[str, tuple[float, float]] | None = None,
         name: str = "vector field",
         period: Callable[[Values], float] | None = None,
+        energy: Callable[[Array, Values], float] | None = None,
     ) -> None:
-        self.name, self.period = name, period
+        self.name, self.period, self.energy = name, period, energy
         self.timed = _takes_time(function)
         self.n = np.size(u0)
         if self.n == 0:
@@ -129,9 +138,11 @@ class VectorField(Model):
 
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the defaults for the others."""
-        for name, value in (given or {}).items():
+        given = {} if given is None else given
+        check_values(given)
+        for name, value in given.items():
             self.parameter(name).check(value)
-        return {n: p.value for n, p in self.parameters.items()} | {n: float(v) for n, v in (given or {}).items()}
+        return {n: p.value for n, p in self.parameters.items()} | {n: float(v) for n, v in given.items()}
 
     def rescaled(self, sizes: Array, *, grow: bool = False) -> Self | None:
         """Return this field with the scale that sizes of its components (n,) tell, unless one was given."""
@@ -183,9 +194,30 @@ class VectorField(Model):
             raise FunctionError(f"the function of {self.name} returned shape {found.shape} for {self.n} unknowns")
         return found.reshape(self.n)
 
+    def rates(self, states: Array, values: Sequence[Values], times: Sequence[float]) -> Array:
+        """Return f at states (m, n), each with its own parameter values and time in s, (m, n), as `rate` does."""
+        if not len(states):
+            return np.empty((0, self.n))
+        pieces = [slice(i, i + _TOGETHER) for i in range(0, len(states), _TOGETHER)]
+        return np.concatenate([self._some(states[at], values[at], times[at]) for at in pieces])
+
+    def _some(self, states: Array, values: Sequence[Values], times: Sequence[float]) -> Array:
+        """Return f at few states: at once, or one by one where the function has no value or not the right shape."""
+        check()
+        given = zip(states, values, times, strict=True) if self.timed else zip(states, values, strict=True)
+        try:
+            found = np.array([self.function(*each) for each in given], dtype=float)
+        except Exception:
+            found = np.empty(0)
+        if found.shape != states.shape:
+            return np.array([self.rate(u, p, t) for u, p, t in zip(states, values, times, strict=True)])
+        thread = threading.get_ident()
+        self._counts[thread] = self._counts.get(thread, 0) + len(states)
+        return found
+
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x plus each row of `steps`, (m, n)."""
-        return np.array([self.residual(x + s, values) for s in steps])
+        return self.rates(x + steps, [values] * len(steps), [0.0] * len(steps))
 
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
@@ -242,6 +274,7 @@ class VectorField(Model):
 
     # -- observables -----------------------------------------------------------------------------------------
 
+    @checked
     def observe(self, name: str, function: Callable[[Array, Values], float], unit: str = "") -> None:
         """Add an observable computed by `function(u, p)`."""
         self.observables[name] = own_observable(name, unit, lambda values, x: function(x, values), self.parameters)

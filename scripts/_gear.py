@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import GREY, LINE_STYLES, draw_curve, mark, pieces
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import whole
@@ -118,7 +119,7 @@ class Slice:
             draw_sides(ax, b, force / 1e3, wrapped(b["theta_ov"]))
         for k, fold in enumerate(self.folds, 1):
             mark(ax, fold["F_ret"] / 1e3, angle_of(fold), "LP", f"FP$_{k}$")
-        ax.set(xlabel="F_ret [kN]", ylabel="theta_ov [deg]")
+        ax.set(xlabel=axis_label("F_ret", "kN"), ylabel=axis_label("theta_ov", "deg"))
 
 
 def draw_both(rows: Any, gear: mc.Mechanism, poses: Mapping[str, Any]) -> None:

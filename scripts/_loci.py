@@ -16,6 +16,7 @@ import numpy as np
 from _gear import ANGLES, FIRST, LOCKING, NAMES, STARTS, UNLOCK, angle_of, load_case, signed
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label, readable
 from mjcont.drawing.plotting import COLORS, draw_curve, mark, new_figure, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, whole
@@ -135,7 +136,8 @@ def draw_loci(ax: Any, loci: Sequence[Case]) -> None:
             start = case.locus.start_index
             for at, text in ((start, "FP$_1$"), (0 if start else len(case.locus) - 1, "FP$_2$")):
                 mark(ax, case.locus["F_ul"][at], case.locus["F_ret"][at] / 1e3, "LP", text)
-    ax.set(xlabel="F_ul [N]", ylabel="F_ret [kN]", xlim=(-1000.0, 0.0) if loci[0].model == FIRST else (-650.0, 40.0))
+    ax.set(xlabel=axis_label("F_ul", "N"), ylabel=axis_label("F_ret", "kN"))
+    ax.set(xlim=(-1000.0, 0.0) if loci[0].model == FIRST else (-650.0, 40.0))
 
 
 def draw_beak(ax: Any, locus: mc.Branch, color: str) -> None:
@@ -150,7 +152,7 @@ def draw_beak(ax: Any, locus: mc.Branch, color: str) -> None:
     mark(ax, 0.0, 0.0, "CP", "CP")
     mark(ax, x, y, "BP", "w$\\cdot$f = 0")
     ax.set(xlim=(-5.0 * x, 5.0 * x), ylim=(5.0 * y, -y))
-    ax.set(xlabel="F_ul from the cusp [mN]", ylabel="F_ret from the cusp [N]")
+    ax.set(xlabel=f"{readable('F_ul')} from the cusp [mN]", ylabel=f"{readable('F_ret')} from the cusp [N]")
 
 
 def loci_figure(loci: Sequence[Case], locking: Sequence[Case], path: Path, *, more: int = 0) -> Any:

@@ -13,6 +13,7 @@ import numpy as np
 from _overcentre import BOUNDS, LABELS, equilibria, overcentre
 
 import mjcont as mc
+from mjcont.drawing.axes import readable
 from mjcont.drawing.notes import place_labels
 from mjcont.drawing.plotting import COLORS, new_figure, plot, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
@@ -86,7 +87,7 @@ def _draw(branches: list[mc.Branch], histories: list[mc.History], out: Path) -> 
             ax.plot(history["F"][rows], np.degrees(history["theta_1"][rows]), color=color, linewidth=0.8, zorder=1.5,
                     label=name)
         plot(branch, x="F", y="theta_1", ax=ax, labels=LABELS, colors=["black"])
-        set_panel_title(ax, f"({panel})  c_sp = {branch.fixed['c_sp']:g} N s/m")
+        set_panel_title(ax, f"({panel})  {readable('c_sp')} = {branch.fixed['c_sp']:g} N s/m")
         ax.set(xlim=BOUNDS, ylim=(-135, 135), yticks=range(-135, 136, 45))
         ax.legend(loc="upper left", frameon=False, fontsize=8.5)
         ax.label_outer()

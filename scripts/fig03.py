@@ -12,6 +12,7 @@ import numpy as np
 from _overcentre import BOUNDS, FOLDS, LABELS, equilibria, overcentre
 
 import mjcont as mc
+from mjcont.drawing.axes import readable
 from mjcont.drawing.plotting import new_figure, pieces, plot, save_figure, set_panel_title
 from mjcont.paper.reproduce import Finding, run_script
 
@@ -25,7 +26,7 @@ def main(out: Path) -> list[Finding]:
     figure, axes = new_figure(1, 2, (7.2, 3.3), sharey=True)
     for ax, panel, branch in zip(axes, "ab", branches, strict=True):
         plot(branch, x="F", y="theta_1", ax=ax, labels=LABELS)
-        set_panel_title(ax, f"({panel})  c_sp = {branch.fixed['c_sp']:g} N s/m")
+        set_panel_title(ax, f"({panel})  {readable('c_sp')} = {branch.fixed['c_sp']:g} N s/m")
         ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30))
         ax.label_outer()
     save_figure(figure, out / "fig03.png")

@@ -14,6 +14,7 @@ import numpy as np
 from _overcentre import BOUNDS, FOLDS, LABELS, LINE_WIDTH, Rigid, curve, equilibria, farthest, overcentre, to_axes
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label, readable
 from mjcont.drawing.plotting import GREY, new_figure, pieces, plot, save_figure, set_panel_title
 from mjcont.paper.reproduce import Finding, run_script, whole
 
@@ -54,7 +55,8 @@ def _draw(branches: list[mc.Branch], studies: dict[tuple[str, str], mc.Stiffness
         axes[0, 2].plot(study.locus["k_j"], study.deviation, label=LABELS[label], color="black",
                         linestyle="-" if panel == "a1" else "-.")
     axes[0, 2].axhline(study.tol, color=GREY, linestyle=":", linewidth=1.0)
-    axes[0, 2].set(yscale="log", ylim=(1e-4, 1.5), xlabel="k_j [N/m]", ylabel="deviation of theta_1")
+    axes[0, 2].set(yscale="log", ylim=(1e-4, 1.5), xlabel=axis_label("k_j", "N/m"),
+                   ylabel=f"deviation of {readable('theta_1')}")
     axes[0, 2].legend(frameon=False, fontsize=8.5)
     set_panel_title(axes[0, 2], "distance from rigid joints")
     for ax in axes[0]:
@@ -63,7 +65,7 @@ def _draw(branches: list[mc.Branch], studies: dict[tuple[str, str], mc.Stiffness
         ax.set(xscale="log", xlim=(SPAN[0], 1e5))
     for i, (ax, branch) in enumerate(zip(axes[1], branches, strict=True), 1):
         plot(branch, x="F", y="theta_1", ax=ax, labels=LABELS)
-        set_panel_title(ax, f"(b{i})  k_j = {branch.fixed['k_j']:g} N/m")
+        set_panel_title(ax, f"(b{i})  {readable('k_j')} = {branch.fixed['k_j']:g} N/m")
         ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30))
     save_figure(figure, out / "fig04.png")
 

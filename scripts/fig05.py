@@ -13,6 +13,7 @@ import numpy as np
 from _overcentre import BOUNDS, FOLDS, LABELS, LINE_WIDTH, Rigid, curve, equilibria, farthest, overcentre, to_axes
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label, readable
 from mjcont.drawing.plotting import (
     COLORS,
     draw_curve,
@@ -52,9 +53,11 @@ def _draw(elastic: mc.Branch, rigid: Rigid, out: Path) -> None:
         mark(axes[1], fold["F"], np.degrees(fold["theta_1"]), "LP", name, color=COLORS[1])
     axes[2].plot([], [], color=COLORS[1], label="closed form")
     plot(elastic, x="F", y="theta_1", ax=axes[2], labels=False, colors=COLORS, legend=["continuation"])
-    titles = (f"(a)  continuation, k_j = {elastic.fixed['k_j']:g} N/m", "(b)  closed form, rigid joints", "(c)  both")
+    titles = (f"(a)  continuation, {readable('k_j')} = {elastic.fixed['k_j']:g} N/m", "(b)  closed form, rigid joints",
+              "(c)  both")
     for ax, title in zip(axes, titles, strict=True):
-        ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30), xlabel="F [N]", ylabel="theta_1 [deg]")
+        ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30))
+        ax.set(xlabel="F [N]", ylabel=axis_label("theta_1", "deg"))
         ax.label_outer()
         set_panel_title(ax, title)
     save_figure(figure, out / "fig05.png")

@@ -14,6 +14,7 @@ import numpy as np
 from _gear import add_legend, angle_of, draw_sides
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label, readable
 from mjcont.drawing.plotting import mark, new_figure, pieces, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script, whole
@@ -57,8 +58,9 @@ def _draw(diagrams: list[list[mc.Branch]], out: Path) -> None:
             draw_sides(ax, b, np.where(inside(b), b["F_ret"], np.nan), np.degrees(b["theta_ov"]))
         for i, p in enumerate(folds(branches), 1):
             mark(ax, p["F_ret"], angle_of(p), "LP", f"FP$_{i}$")
-        set_panel_title(ax, f"({panel})  c_j = {branches[0].fixed['c_j']:g} N s/m")
-        ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30), xlabel="F_ret [N]", ylabel="theta_ov [deg]")
+        set_panel_title(ax, f"({panel})  {readable('c_j')} = {branches[0].fixed['c_j']:g} N s/m")
+        ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30))
+        ax.set(xlabel=axis_label("F_ret", "N"), ylabel=axis_label("theta_ov", "deg"))
         ax.label_outer()
     add_legend(axes[1], loc="lower right")
     save_figure(figure, out / "fig07.png")

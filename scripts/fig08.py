@@ -18,9 +18,11 @@ import numpy as np
 from _gear import add_legend, angle_of, draw_sides
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label, readable
 from mjcont.drawing.plotting import draw_curve, mark, new_figure, pieces, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script, whole
+from mjcont.results.points import show
 
 BOUNDS = (-40.0, 60.0)  # F_ret in N
 WINDOW = np.radians(-20.0)  # theta_1 near uplock lies below
@@ -153,7 +155,8 @@ def _draw(slices: Sequence[Slice], out: Path) -> None:
             ax.axvline(k, color="0.75", linewidth=1.2, zorder=0.5)
         low, high = theta[curve.rows].min(), theta[curve.rows].max()
         pad = 0.15 * (high - low)
-        ax.set(xscale="log", xlim=SPAN, ylim=(low - pad, high + pad), xlabel="k_j [N/m]", ylabel="theta_ov [deg]")
+        ax.set(xscale="log", xlim=SPAN, ylim=(low - pad, high + pad))
+        ax.set(xlabel=axis_label("k_j", "N/m"), ylabel=axis_label("theta_ov", "deg"))
         set_panel_title(ax, f"(a{i})  FP$_{i}$")
     for i, (ax, s) in enumerate(zip(axes[1], slices, strict=True), 1):
         for b in s.branches:
@@ -161,9 +164,10 @@ def _draw(slices: Sequence[Slice], out: Path) -> None:
         for p in s.folds:
             names = [f"FP$_{j}$" for j, q in enumerate(s.named, 1) if abs(q["theta_ov"] - p["theta_ov"]) < 1e-6]
             mark(ax, p["F_ret"], angle_of(p), "LP", *names)
-        ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30), xlabel="F_ret [N]", ylabel="theta_ov [deg]")
-        set_panel_title(ax, f"(b{i})  k_j = {s.k_j:.0e} N/m".replace("e+0", "e"))
-    add_legend(axes[1, 1], loc="upper left", handlelength=1.4, borderaxespad=0.1)
+        ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30))
+        ax.set(xlabel=axis_label("F_ret", "N"), ylabel=axis_label("theta_ov", "deg"))
+        set_panel_title(ax, f"(b{i})  {readable('k_j')} = {show(s.k_j, 'N/m', 3)}")
+    add_legend(axes[1, 1], loc="lower left", handlelength=1.0, handletextpad=0.5, borderaxespad=0.1)
     save_figure(figure, out / "fig08.png")
 
 

@@ -28,6 +28,7 @@ from _gear import (
 )
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import mark, new_figure, save_figure, set_panel_title
 from mjcont.motion.histories import simulate
 from mjcont.paper.reproduce import Finding, run_script, whole
@@ -84,8 +85,8 @@ def _draw(found: Sequence[Slice], out: Path) -> None:
                 text = names.get(p["F_ret"], "")
                 mark(left, force[p.index], overcentre[p.index], "LP", text)
                 mark(right, overcentre[p.index], strut[p.index], "LP", text)
-        left.set(xlabel="F_ret [kN]", ylabel="theta_ov [deg]", xlim=np.array(BOUNDS) / 1e3)
-        right.set(xlabel="theta_ov [deg]", ylabel="theta_1 [deg]", ylim=(-75, 5))
+        left.set(xlabel=axis_label("F_ret", "kN"), ylabel=axis_label("theta_ov", "deg"), xlim=np.array(BOUNDS) / 1e3)
+        right.set(xlabel=axis_label("theta_ov", "deg"), ylabel=axis_label("theta_1", "deg"), ylim=(-75, 5))
         set_panel_title(left, f"(a{number})  {NAMES[near.gear.name]}")
         set_panel_title(right, f"(b{number})  {NAMES[near.gear.name]}")
     add_legend(axes[0, 1], loc="center", bbox_to_anchor=(0.72, 0.5))

@@ -26,6 +26,7 @@ from _gear import (
 )
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import new_figure, save_figure, set_panel_title
 from mjcont.motion.histories import simulate
 from mjcont.paper.reproduce import Finding, run_script
@@ -51,8 +52,10 @@ def _draw(rows: list[list[Slice]], out: Path) -> None:
             force = f"{-piece.load['F_ul']:g} N" if piece.load["F_ul"] else "no unlock force"
             set_panel_title(ax, f"({letter}{number})  {signed(angle)}, {force}")
             ax.set(xlim=(300, 800) if piece.gear.name == FIRST else (250, 750), ylim=(-75, 75))
-            ax.set(xlabel="F_ret [kN]" if letter in "bd" else "")
-            ax.set(ylabel=f"{NAMES[piece.gear.name]}: theta_ov [deg]" if number == PANELS[0] else "")
+            low, high = ax.get_xlim()
+            ax.set(xticks=np.arange(100.0 * np.floor(low / 100.0) + 100.0, high, 100.0))  # none where panels meet
+            ax.set(xlabel=axis_label("F_ret", "kN") if letter in "bd" else "")
+            ax.set(ylabel=f"{NAMES[piece.gear.name]}: {axis_label('theta_ov', 'deg')}" if number == PANELS[0] else "")
     add_legend(axes[0, 2], loc="upper right")
     save_figure(figure, out / "fig11.png")
 

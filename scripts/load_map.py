@@ -18,6 +18,7 @@ from _loci import Case
 from _rigid_gear import RigidGear
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import COLORS, new_figure, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script
@@ -126,7 +127,7 @@ def _draw_lines(ax: Any, study: Study) -> None:
         ax.plot(np.degrees(angles), study.cusps["F_ul"][:, i], "o", color=color, markersize=4.0, label=f"n = {load:g}")
         ax.plot(np.degrees(fine), study.rigid.unlock(fine, load), "--", color=color, linewidth=1.2)
     ax.axvline(np.degrees(study.rigid.neutral), color="#333333", linestyle=":", linewidth=1.0)
-    ax.set(xlabel="gravity_angle [deg]", ylabel="F_ul at the cusp [N]")
+    ax.set(xlabel=axis_label("gravity_angle", "deg"), ylabel="F_ul at the cusp [N]")
     ax.legend(frameon=True, framealpha=0.9, edgecolor="none", fontsize=8, loc="upper left")
     set_panel_title(ax, "(f)  F_ul at the cusp; dashed: rigid pins")
 

@@ -21,6 +21,7 @@ from _gear import LOAD_FACTORS, LOCKING, UNLOCK, Slice, add_legend, angle_of, dr
 from _loci import Case
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import COLORS, draw_curve, mark, new_figure, pieces, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script, whole
@@ -128,7 +129,7 @@ def _draw(study: Study, path: Path) -> None:
     for (n, b), color in zip(study.lengths.items(), COLORS, strict=False):
         draw_curve(axes[2, 1], b["l_us"], b["stop_load"], pieces(b), color=color)
         mark(axes[2, 1], corner(b)["l_us"], 0.0, "CO", f"{n:g}", color=color)
-    axes[2, 1].set(xlabel="l_us [m]", ylabel="stop_load [N m]", ylim=(-50, None))
+    axes[2, 1].set(xlabel=axis_label("l_us", "m"), ylabel=axis_label("stop_load", "N m"), ylim=(-50, None))
     set_panel_title(axes[2, 1], "(f)  no retraction force; load factors")
     add_legend(axes[0, 0], loc="lower right")
     save_figure(figure, path)
@@ -159,7 +160,7 @@ def _draw_forces(ax: Any, study: Study) -> None:
     ax.plot([p["F_ul"] for p in corners], [p["F_ret"] / 1e3 for p in corners], color=COLORS[3], linewidth=1.6)
     for p in opens:
         mark(ax, p["F_ul"], p["F_ret"] / 1e3, p.kind)
-    ax.set(xlabel="F_ul [N]", ylabel="F_ret [kN]", xlim=(-620, 40), ylim=(290, 570))
+    ax.set(xlabel=axis_label("F_ul", "N"), ylabel=axis_label("F_ret", "kN"), xlim=(-620, 40), ylim=(290, 570))
     set_panel_title(ax, "(c)  folds, paths (dash-dotted), stop (purple)")
 
 
@@ -172,8 +173,8 @@ def _draw_stopped(left: Any, right: Any, study: Study) -> None:
         for p in b.special_points:
             mark(left, p["F_ret"] / 1e3, angle_of(p), p.kind, p.label[:2] if p.kind == "CO" else "")
             mark(right, p["F_ret"] / 1e3, float(p["stop_load"]), p.kind, "CO" if p.kind == "CO" else "")
-    left.set(xlabel="F_ret [kN]", ylabel="theta_ov [deg]", xlim=(0, 600), ylim=(-7, 1))
-    right.set(xlabel="F_ret [kN]", ylabel="stop_load [N m]", xlim=(0, 600))
+    left.set(xlabel=axis_label("F_ret", "kN"), ylabel=axis_label("theta_ov", "deg"), xlim=(0, 600), ylim=(-7, 1))
+    right.set(xlabel=axis_label("F_ret", "kN"), ylabel=axis_label("stop_load", "N m"), xlim=(0, 600))
     right.legend(title="unlock force", frameon=False, fontsize=8.0, title_fontsize=8.0)
     set_panel_title(left, "(d)  with a stop: no unlock force, and 500 N")
     set_panel_title(right, "(e)  with a stop: the load on it")

@@ -33,6 +33,7 @@ from _unlocking import (
 )
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import COLORS, new_figure, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script
@@ -119,7 +120,7 @@ def _draw(study: Study, path: Path) -> None:
     for h, color, name in zip(study.shown.histories, COLORS, names, strict=False):
         axes[0, 0].plot(h["time"], np.degrees(h["theta_ov"]), color=color, linewidth=1.2, label=name)
     axes[0, 0].axhline(0.0, color="#333333", linewidth=0.8)
-    axes[0, 0].set(xlabel="time [s]", ylabel="theta_ov [deg]")
+    axes[0, 0].set(xlabel="time [s]", ylabel=axis_label("theta_ov", "deg"))
     axes[0, 0].legend(frameon=False, fontsize=8.0, loc="center right")
     set_panel_title(axes[0, 0], f"(a)  force measure, {SHOWN:g} N")
     limit = -study.case.exchange["F_ul"]

@@ -1,13 +1,16 @@
-"""Write the tables of keys in docs/studies.md as the schema has them: `python scripts/study_tables.py`."""
+"""Write what follows from the tables of a study, docs/studies.md and the JSON Schema: `scripts/study_tables.py`."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
 
+from mjcont.commands.jsonschema import SCHEMA
+from mjcont.commands.jsonschema import text as schema_text
 from mjcont.outside.saving import write_file
 from mjcont.studies.keys import Key, Kind
-from mjcont.studies.tables import KINDS, PLOT
+from mjcont.studies.plots import PLOT
+from mjcont.studies.tables import KINDS
 from mjcont.studies.waveforms import SHAPES
 
 DOCS = Path(__file__).resolve().parent.parent / "docs" / "studies.md"
@@ -59,3 +62,4 @@ def rewritten(page: str) -> str:
 
 if __name__ == "__main__":
     write_file(DOCS, rewritten(DOCS.read_text(encoding="utf-8")))
+    write_file(SCHEMA, schema_text())

@@ -39,6 +39,7 @@ from _unlocking import (
 )
 
 import mjcont as mc
+from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import COLORS, new_figure, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script
@@ -149,7 +150,7 @@ def _draw(study: Study, path: Path) -> None:
             ax.plot(h["time"], np.degrees(h["theta_ov"]), color=color, linewidth=1.1, label=name)
         ax.axhline(0.0, color="#333333", linewidth=0.8)
         ax.axvspan(WHOLE_BEGIN, WHOLE_BEGIN + 10.0, color="#eeeeee", zorder=0)
-        ax.set(xlabel="time [s]", ylabel="theta_ov [deg]", ylim=(-80, 80))
+        ax.set(xlabel="time [s]", ylabel=axis_label("theta_ov", "deg"), ylim=(-80, 80))
         ax.legend(frameon=True, framealpha=0.9, edgecolor="none", fontsize=8, loc="lower left")
         set_panel_title(ax, f"({panel})  {measure} measure, {UNLOCK:g} N; shaded: unlocking")
     for ax, panel, measure in zip(axes[1], "cd", MEASURES, strict=False):

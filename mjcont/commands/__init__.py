@@ -1,1 +1,4 @@
-"""The command line: `arguments` says what each command takes, `cli` does it, `progress` prints while it goes."""
+"""The command line: `cli` has the parser, each file beside it the commands on a subject.
+
+`common` is what they share, `progress` tells a terminal how long work goes, `facts` is what `--json` prints.
+"""

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+from mjcont.commands.common import OK, load, naming
+from mjcont.commands.progress import gauge
 from mjcont.commands.readers import place
-from mjcont.outside.terminal import Live, live_stream
+from mjcont.outside.terminal import say
 
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
@@ -27,29 +29,21 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     p.add_argument("--camera", metavar="NAME", help="one of the model's cameras, with --rendering mujoco")
 
 
-def run(args: argparse.Namespace, say: Callable[[str], None]) -> int:
+def run(args: argparse.Namespace) -> int:
     """Write the animation and say where it is."""
     from mjcont.drawing.animation import animate
-    from mjcont.errors import MjcontError
-    from mjcont.results.formats import load
 
     out = Path(args.out) if args.out else Path(args.file).with_suffix(".gif")
-    stream = live_stream()
-    live = Live(stream) if stream is not None else None
-    result, on = load(args.file), [load(b) for b in args.on or []]
-    try:
+    result: Any = load(args.file)  # `animate` says what it takes
+    on: list[Any] = [load(b) for b in args.on or []]
+    with naming(args.file), gauge(str(out)) as shown:
         animate(
             result, out, args.x, args.y, on=on, fps=args.fps, seconds=args.seconds, size=args.size,
             degrees=args.degrees, plane=args.plane, rendering=args.rendering, camera=args.camera,
-            progress=(lambda done, count: live.show(f"frame {done} of {count}")) if live is not None else None,
+            progress=lambda done, count: shown.count(done, count, " frames"),
         )
-    except MjcontError as error:
-        raise type(error)(f"'{args.file}': {error}") from error
-    finally:
-        if live is not None:
-            live.show()
     say(f"animation: {out}")
-    return 0
+    return OK
 
 
 def _size(text: str) -> tuple[int, int]:

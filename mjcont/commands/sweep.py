@@ -1,28 +1,22 @@
-"""The command `mjcont sweep`: its arguments, its live count, its summary."""
+"""The command `mjcont sweep`: its arguments, its summary."""
 
 from __future__ import annotations
 
 import argparse
-import math
 import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from mjcont.commands.common import OK, warnings_as_lines
+from mjcont.commands.progress import gauge
 from mjcont.commands.readers import place, positive
 from mjcont.errors import MjcontError
 from mjcont.outside.saving import check_writable
-from mjcont.outside.terminal import Live, live_stream
-
-if TYPE_CHECKING:
-    from mjcont.sweeps.sweeps import Progress
-
-_REDRAW_SECONDS = 0.2
+from mjcont.outside.terminal import say
 
 
 def add_arguments(p: argparse.ArgumentParser) -> None:
     """Add the command's arguments to its parser."""
-    p.add_argument("study", metavar="STUDY.toml", help="a study file with a table [sweep] (docs/sweeps.md)")
+    p.add_argument("study", metavar="STUDY.toml", help="a study file with a table [sweep] (mjcont docs sweeps)")
     p.add_argument("-o", "--out", type=place, metavar="DIR", default="sweep",
                    help="folder for the journal and the tables; a sweep that stopped goes on there (default: sweep)")
     p.add_argument("--limit", metavar="N", type=positive, help="the first N cases only")
@@ -36,8 +30,14 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     p.add_argument("-q", "--quiet", action="store_true", help="print errors only")
 
 
-def run(args: argparse.Namespace, say: Callable[[str], None]) -> None:
+def run(args: argparse.Namespace) -> int:
     """Run the sweep, print what it found, and draw it if asked."""
+    with warnings_as_lines():
+        _run(args)
+    return OK
+
+
+def _run(args: argparse.Namespace) -> None:
     from mjcont.studies.study import load_study
     from mjcont.sweeps.sweeps import sweep
 
@@ -50,15 +50,14 @@ def run(args: argparse.Namespace, say: Callable[[str], None]) -> None:
             raise MjcontError(f"the plot's column '{column}' is not in this sweep. Valid: {', '.join(drawn)}.")
     for file in args.plot:
         check_writable(file)
-    stream = None if args.quiet else live_stream()
-    live = Live(stream) if stream is not None else None
     began = time.monotonic()
-    table = sweep(
-        study, out=args.out, limit=args.limit, workers=args.workers, scheduler=args.scheduler,
-        progress=_counted(live) if live is not None else None,
-    )
-    if live is not None:
-        live.show()
+    with gauge("sweep", quiet=args.quiet) as shown:
+
+        def progress(done: int, total: int, failed: int) -> None:
+            shown.count(done, total, " cases", f", {failed} failed" if failed else "")
+
+        table = sweep(study, out=args.out, limit=args.limit, workers=args.workers, scheduler=args.scheduler,
+                      progress=progress)
     if not args.quiet:
         say(str(table))
         say(f"  written: {Path(args.out) / 'sweep.csv'}, {Path(args.out) / 'sweep.h5'} "
@@ -70,21 +69,3 @@ def run(args: argparse.Namespace, say: Callable[[str], None]) -> None:
         if not args.quiet:
             say(f"plot: {path}")
 
-
-def _counted(live: Live) -> Progress:
-    """Return what shows how many cases are done and how long the rest may take."""
-    began, drawn, first = time.monotonic(), -math.inf, -1
-
-    def show(done: int, total: int, failed: int) -> None:
-        nonlocal drawn, first
-        now = time.monotonic()
-        first = done if first < 0 else first
-        if now - drawn < _REDRAW_SECONDS:
-            return
-        drawn = now
-        left = (total - done) * (now - began) / (done - first) if done > first else math.nan
-        rest = f", about {left:.0f} s left" if math.isfinite(left) else ""
-        lost = f", {failed} failed" if failed else ""
-        live.show(f"{done} of {total} cases{lost}{rest}")
-
-    return show

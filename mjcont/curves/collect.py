@@ -32,14 +32,19 @@ from mjcont.results.spectra import Late, Spectra
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """A special point as it is found, while its curve is still being followed: it has no label yet."""
+    """A point as it is found, while its curve is still being followed: no label yet, and no kind unless special.
+
+    Observables are those of special points only.
+    """
 
     kind: str
     parameters: Mapping[str, float]
     observables: Mapping[str, float]
 
 
-Progress = Callable[[int, Found | None], None]
+Progress = Callable[[int, Found], None]
+# of work whose amount is known: done, all
+Amount = Callable[[float, float], None]
 
 
 def make_point(problem: Model, x: Array, values: Values, kind: str = "") -> Point:
@@ -51,12 +56,15 @@ def make_point(problem: Model, x: Array, values: Values, kind: str = "") -> Poin
     return Point(dict(values), observables, x.copy(), s.eigenvalues, word, count, problem, units(problem))
 
 
-def _found(system: System, item: Located) -> Found:
+def _found(system: System, item: CurvePoint | Located) -> Found:
+    values = system.values(item.y if isinstance(item, CurvePoint) else item.point.y)
+    free = {n: values[n] for n in system.names}
+    if isinstance(item, CurvePoint):
+        return Found("", free, {})
     problem = model_of(system.problem)
-    values = system.values(item.point.y)
     measured = problem.measure(item.point.x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
-    return Found(item.kind, {n: values[n] for n in system.names}, observables)
+    return Found(item.kind, free, observables)
 
 
 def reporter(system: System, progress: Progress | None) -> Callable[[Item], None] | None:
@@ -69,7 +77,7 @@ def reporter(system: System, progress: Progress | None) -> Callable[[Item], None
         nonlocal count
         if isinstance(item, CurvePoint | Located):
             count += isinstance(item, CurvePoint)
-            progress(count, _found(system, item) if isinstance(item, Located) else None)
+            progress(count, _found(system, item))
 
     return report
 

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress, collect, make_point, mark_of, run_directions
-from mjcont.curves.walkers import Zeros, equilibrium_walker, monitor_of, point_stop, zero_values
-from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
+from mjcont.curves.walkers import Zeros, equilibrium_walker, point_stop, zero_values
+from mjcont.errors import BoundsError, BranchWarning, MjcontError, ParameterError, StartError
 from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
-from mjcont.numerics.equations.newton import LARGEST_ERROR, Corrected, solve
+from mjcont.numerics.equations.newton import LARGEST_ERROR
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import make_settings
 from mjcont.numerics.equations.starts import Start, find_start
 from mjcont.numerics.equations.system import System
-from mjcont.numerics.points.events import Located, ScalarZero
-from mjcont.numerics.points.on_equilibria import square_system
+from mjcont.numerics.points.events import Located
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.steps import End, Item, Status
@@ -28,7 +29,7 @@ from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch
 from mjcont.results.model import Model, check_bounds, model_of, warn_outside
 from mjcont.results.points import Point, SpecialPoint, show
-from mjcont.results.quantities import column_of, meant_each
+from mjcont.results.quantities import meant_each
 
 M = TypeVar("M", bound=Model)
 # how often a curve is followed anew at most, with the scale that its states tell
@@ -60,6 +61,7 @@ def start_from(
 
 
 @np.errstate(all="ignore")
+@checked
 def find_equilibrium(
     problem: Model, start: Mapping[str, float] | Point | None = None, *, keyframe: str | None = None, state: Any = None
 ) -> Point:
@@ -110,6 +112,7 @@ def _start_name(problem: Model, start: Any, keyframe: str | None, state: Any) ->
 
 
 @np.errstate(all="ignore")
+@checked
 def continue_equilibria(
     problem: Model,
     parameter: str,
@@ -135,7 +138,7 @@ def continue_equilibria(
     bounds : (low, high), optional
         Its range; default the parameter's own.
     start : dict of parameter values, or a point of any result
-        Other parameters keep the model's values.
+        Other parameters keep the model's values. At a branch point of a curve in this parameter, a BranchWarning.
     keyframe, state : optional
         Where to look for the first equilibrium; default the start point's state, or qpos0 (u0).
     direction : {None, +1, -1}
@@ -147,7 +150,7 @@ def continue_equilibria(
     stop : callable, optional
         `stop(point)` returns a sentence to end the curve there.
     progress : callable, optional
-        `progress(count, special)` after each point and special point.
+        `progress(count, found)` after each point; `found.kind` is that of a special point, empty at others.
     **options
         Fields of `Settings`: ds, ds_min, ds_max, angle, max_points, ...
 
@@ -161,6 +164,7 @@ def continue_equilibria(
         See their messages. Failure of the continuation itself is no exception but the branch's status.
     """
     directions = check_direction(direction)
+    _warn_of_others(start, parameter)
 
     def follow(scaled: Model) -> tuple[Branch, Model | None]:
         prepared = _prepare(scaled, parameter, bounds, start, keyframe, state, zeros, limits, stop, options)
@@ -169,6 +173,15 @@ def continue_equilibria(
     with clock.limited(make_settings(options).max_seconds):
         branch = _in_its_scale(follow, problem)
     return replace(branch, settings={**branch.settings, "zeros": dict(zeros)}) if zeros else branch
+
+
+def _warn_of_others(start: Any, parameter: str) -> None:
+    """Give a BranchWarning where a curve begins at a branch point of one in the same parameter."""
+    if isinstance(start, SpecialPoint) and start.kind == "BP" and parameter in start.free:
+        said = (f"several branches meet in {start.label or 'this branch point'}, and the one that it was found on is "
+                "followed: mc.switch_branches(point) follows all of them, a diagram ([[diagrams]] in a study) whatever "
+                "they reach")
+        warnings.warn(said, BranchWarning, stacklevel=4)
 
 
 def _in_its_scale(follow: Callable[[Model], tuple[Branch, Model | None]], problem: Model) -> Branch:
@@ -208,6 +221,7 @@ def _followed(
     return branch, branch.model.rescaled(np.abs(branch.states).max(axis=0))
 
 
+@checked
 def iterate_equilibria(
     problem: Model,
     parameter: str,
@@ -358,42 +372,3 @@ def check_direction(direction: int | None) -> tuple[float, ...]:
     if direction not in (None, 1, -1):
         raise ParameterError(f"direction must be None, +1 or -1, got {direction!r}")
     return (-1.0, 1.0) if direction is None else (float(direction),)
-
-
-@np.errstate(all="ignore")
-def points_at(branch: Branch, name: str, value: float) -> list[Point]:
-    """Return the points of a branch of equilibria at which a column has a value, corrected to it."""
-    model_of(branch.problem, "the branch")
-    if branch.kind != "equilibria":
-        raise MjcontError("at() works on branches of equilibria; on a locus use its special points or rows")
-    name = column_of(name, branch.columns) or name
-    column = branch[name] - value
-    held, _ = hold_rigid_modes(branch.model, branch.states[0], branch.parameters_at(0))
-    branch = replace(branch, problem=held)
-    found: list[Point] = []
-    for i in range(len(branch) - 1):
-        a, b = column[i], column[i + 1]
-        if a == 0.0 or a * b < 0:
-            point = _point_between(branch, i, a / (a - b) if a else 0.0, name, value)
-            if point is not None:
-                found.append(point)
-    if len(branch) and column[-1] == 0.0:
-        found.append(branch.row(len(branch) - 1))
-    return found
-
-
-def _point_between(branch: Branch, i: int, fraction: float, name: str, value: float) -> Point | None:
-    problem = branch.model
-    step = problem.difference(branch.states[i + 1], branch.states[i])
-    x = problem.retract(branch.states[i], fraction * step)
-    free = [Free(n, *b) for n, b in branch.free.items()]
-    between = {n: float((1 - fraction) * branch[n][i] + fraction * branch[n][i + 1]) for n in branch.free}
-    base = {**branch.fixed, **between}
-    if name in branch.free:
-        system, y = System(problem, {**base, name: value}, ()), np.zeros(0)
-    else:
-        equilibria = System(problem, base, free)
-        at = Corrected(x, equilibria.start_y(), equilibria.local(x, equilibria.start_y()), None, 0, 0.0, 0.0, 0.0)
-        system, y = square_system(equilibria, [ScalarZero(monitor_of(problem, name, value))], at)
-    c = solve(system, x, y)
-    return None if c.failure is not None else make_point(problem, c.x, system.values(c.y))

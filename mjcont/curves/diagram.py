@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress, build_branch, completed, ordered_rows, reporter
 from mjcont.curves.continuation import continue_equilibria, find_equilibrium
 from mjcont.curves.walkers import Zeros, equilibrium_walker
-from mjcont.errors import BoundsError, MjcontError, ParameterError
+from mjcont.errors import BoundsError, BranchWarning, MjcontError, ParameterError
 from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import correct
@@ -30,7 +32,6 @@ from mjcont.results.branch import Branch, Diagram
 from mjcont.results.model import Model, check_bounds, model_of
 from mjcont.results.points import Point, SpecialPoint
 from mjcont.results.search import same_spectrum
-from mjcont.results.text import check_kind
 
 _OFFSET = 1e-2
 # first steps along a branch from a point on it, one way and the other
@@ -43,6 +44,7 @@ _CLUSTER = 0.05
 
 
 @np.errstate(all="ignore")
+@checked
 def switch_branches(
     point: SpecialPoint,
     bounds: tuple[float, float] | None = None,
@@ -67,7 +69,6 @@ def switch_branches(
     MjcontError
         If the point is no branch point of equilibria, or was loaded without its problem.
     """
-    check_kind("the branch point", point, SpecialPoint, 'take one of a branch: branch.point("BP1")')
     if point.kind != "BP" or point.curve != "equilibria":
         raise MjcontError(f"{point.label or 'this point'} is no branch point of equilibria: only those have branches")
     settings = make_settings(options)
@@ -79,7 +80,7 @@ def switch_branches(
 
 def _system_at(point: SpecialPoint, bounds: tuple[float, float] | None) -> System:
     ((name, own),) = point.free.items()
-    low, high = check_bounds(point.model, name, bounds or own)
+    low, high = check_bounds(point.model, name, own if bounds is None else bounds)
     if not low <= point.parameters[name] <= high:
         value = point.parameters[name]
         raise BoundsError(f"{point.label} has {name} = {value:g}, outside the bounds {low:g} .. {high:g}")
@@ -173,6 +174,7 @@ def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool
 
 
 @np.errstate(all="ignore")
+@checked
 def bifurcation_diagram(
     problem: Model,
     parameter: str,
@@ -230,7 +232,9 @@ def _reach(
         point = start if located else find_equilibrium(problem, start, keyframe=keyframe)
         if not any(covers(b, point) for b in branches):
             given = {"zeros": zeros, "progress": progress, **options}
-            branches.append(continue_equilibria(problem, parameter, bounds, point, **given))
+            with warnings.catch_warnings():  # the other branches through it come next
+                warnings.simplefilter("ignore", BranchWarning)
+                branches.append(continue_equilibria(problem, parameter, bounds, point, **given))
             problem = branches[-1].model if problem.follows_scale else problem
     queue = [p for b in branches for p in b.of_kind("BP")]
     done: list[SpecialPoint] = []

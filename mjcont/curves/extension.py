@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress, build_branch, completed, ordered_rows, reporter
 from mjcont.curves.loci import default_ends, locus_detectors
 from mjcont.curves.walkers import equilibrium_walker
@@ -38,6 +39,7 @@ _SAME = 1e-4
 
 
 @np.errstate(all="ignore")
+@checked
 def extend(
     branch: Branch,
     bounds: tuple[float, float] | Mapping[str, tuple[float, float]] | None = None,

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Found, Progress, make_point
 from mjcont.curves.continuation import hold_rigid_modes
 from mjcont.errors import BoundsError, ParameterError, unknown_name
@@ -45,6 +46,7 @@ _ROUNDS_FOR_NONE = 3
 _UNEVEN = 1.0 / math.e
 
 
+@checked
 def find_equilibria(
     problem: Model,
     params: Mapping[str, float] | Point | None = None,
@@ -80,7 +82,7 @@ def find_equilibria(
     keyframes : bool
         Whether the model's keyframes and initial pose are further starts.
     progress : callable, optional
-        `progress(starts, found)` after each batch of starts and for each equilibrium found.
+        `progress(starts, found)` after each batch of starts, with an empty `found.kind`, and for each equilibrium.
 
     Returns
     -------
@@ -103,7 +105,7 @@ def find_equilibria(
         ended = search.run(first, starts, seed, limits, progress)
     energies = potential_energy(problem, np.array(search.kept), search.values)
     shown = tuple(name for name in search.ranges if name in problem.observables)
-    return gather(problem.name, search.points, search.hits, energies, ended, search.account(), search.notes, shown)
+    return gather(problem, search.points, search.hits, energies, ended, search.account(), search.notes, shown)
 
 
 def _prepare(problem: Model, values: dict[str, float], region: Region | None) -> _Search:
@@ -221,6 +223,8 @@ class _Search:
         """Search until nothing new turns up or a limit is reached, and return how it ended."""
         from scipy.stats import qmc
 
+        if seed < 0:
+            raise ParameterError(f"seed must be a whole number from 0 on, got {seed}")
         sampler = qmc.Halton(self.problem.n, seed=seed)
         generator = np.random.default_rng(seed)
         rounds = barren = 0
@@ -329,7 +333,7 @@ class _Search:
                 if limits.reached(self):
                     return
             if progress is not None:
-                progress(self.drawn, None)
+                progress(self.drawn, Found("", {}, {}))
 
     def _add(self, x: Array, sign: float, limits: _Limits, progress: Progress | None) -> int:
         """Note an equilibrium, and return its place in the result, -1 if it has none."""

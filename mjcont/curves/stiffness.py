@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.loci import continue_special
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
@@ -14,6 +15,7 @@ from mjcont.results.points import SpecialPoint
 from mjcont.results.stiffness import StiffnessStudy
 
 
+@checked
 def stiffness_study(
     mechanism: Model,
     point: SpecialPoint,
@@ -50,7 +52,7 @@ def stiffness_study(
         raise MjcontError(f"{point.label} belongs to another model than '{mechanism.name}'")
     own = mechanism.parameter(parameter).bounds
     value = point.parameters.get(parameter, mechanism.parameter(parameter).value)  # a path may be new to the point
-    span = bounds or (max(own[0], value * 1e-3), min(own[1], value * 1e3))
+    span = bounds if bounds is not None else (max(own[0], value * 1e-3), min(own[1], value * 1e3))
     locus = continue_special(point, parameter, bounds=span, **options)
     column = quantity or next(iter(point.free))
     rows = _stiffening(locus[parameter], locus.start_index)

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.drawing import plotting
-from mjcont.drawing.axes import axis_label
+from mjcont.drawing.axes import show_axis, spread_ticks
 from mjcont.drawing.frames import Frame, Result, Track, default_columns, frames_of, track_of
 from mjcont.drawing.movies import check_movie, write_movie
 from mjcont.drawing.offscreen import Offscreen
@@ -44,6 +45,7 @@ _TIGHT = 0.03
 _MOVING = "#d1281f"
 
 
+@checked
 def animate(
     result: Result | Orbits | Mode,
     path: str | Path,
@@ -204,6 +206,7 @@ class _Stage:
         self._caption = self._figure.suptitle("Caption", x=0.02, ha="left", fontsize=9.5)
         self._figure.draw_without_rendering()
         self._figure.set_layout_engine("none")
+        spread_ticks(right)
         plotting.place_labels(right)
         self._caption.set_text("")
         left.axis("off")
@@ -238,8 +241,8 @@ def _diagram(
     if not isinstance(result, Branch):
         ax.plot(*line, color=plotting.GREY, linewidth=0.8, alpha=0.6, label="_way", zorder=1.5)
     if not curves:
-        ax.set_xlabel(axis_label(x, _unit(result, x), degrees))
-        ax.set_ylabel(axis_label(y, _unit(result, y), degrees))
+        show_axis(ax.xaxis, x, _unit(result, x), (), degrees)
+        show_axis(ax.yaxis, y, _unit(result, y), (), degrees)
 
 
 def _unit(result: Result, name: str) -> str:
@@ -249,7 +252,7 @@ def _unit(result: Result, name: str) -> str:
 
 
 def _branches(on: Branch | Sequence[Branch] | None) -> list[Branch]:
-    branches = [on] if isinstance(on, Branch) else list(on or [])
+    branches = [on] if isinstance(on, Branch) else list(on if on is not None else [])
     for b in branches:
         if not isinstance(b, Branch):
             raise MjcontError(f"on takes a Branch, or several in a list, got a {type(b).__name__}")
@@ -261,7 +264,7 @@ def _check_options(fps: float, seconds: float | None, size: Any, rendering: str,
         if value is not None and not (value > 0 and math.isfinite(value)):
             raise MjcontError(f"{label} must be a positive number, got {value}")
     low, high = _SIDES
-    if len(size) != 2 or not all(isinstance(n, int | np.integer) and low <= n <= high for n in size):
+    if np.shape(size) != (2,) or not all(isinstance(n, int | np.integer) and low <= n <= high for n in size):
         raise MjcontError(f"size must be width and height in pixels, each a whole number from {low} to {high}: {size}")
     if rendering not in RENDERINGS:
         raise unknown_name("rendering", rendering, RENDERINGS)

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont.drawing.axes import axis_label
+from mjcont.drawing.axes import label_axes, show_axis
+from mjcont.drawing.maps import write_levels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,11 +23,11 @@ def draw_barriers(curve: BarrierCurve, ax: Axes | None = None) -> Axes:
         _, ax = new_figure()
     values = np.degrees(curve.values) if curve.unit == "rad" else curve.values
     energy = np.where(np.isfinite(curve.energy), curve.energy, np.nan)
-    apart = np.flatnonzero(np.diff(curve.rows) > 1) + 1
-    for i, run in enumerate(np.split(np.arange(len(values)), apart)):
-        ax.plot(values[run], energy[run], color=COLORS[i % len(COLORS)], linewidth=1.8)
-    ax.set(xlabel=axis_label(curve.name, curve.unit), ylabel="energy barrier [J]")
+    for i in range(int(curve.pieces[-1]) + 1):
+        on = curve.pieces == i
+        ax.plot(values[on], energy[on], color=COLORS[i % len(COLORS)], linewidth=1.8, label="_barrier")
     ax.set_ylim(bottom=0.0)
+    label_axes(ax, (curve.name, curve.unit), ("energy barrier", "J"))
     return ax
 
 
@@ -40,9 +41,8 @@ def draw_map(barriers: BarrierMap, ax: Axes | None = None, levels: Any = 10) -> 
     energy = np.ma.masked_invalid(barriers.energy)
     shades = ax.contourf(scales[0] * barriers.x, scales[1] * barriers.y, energy, levels=levels, cmap="Blues")
     lines = ax.contour(shades, colors="#333333", linewidths=0.7)
-    ax.clabel(lines, fontsize=7.5, fmt="%g")
-    ax.set(xlabel=axis_label(barriers.names[0], barriers.units[0]),
-           ylabel=axis_label(barriers.names[1], barriers.units[1]))
+    label_axes(ax, (barriers.names[0], barriers.units[0]), (barriers.names[1], barriers.units[1]))
     figure: Any = ax.get_figure(root=True)
-    figure.colorbar(shades, ax=ax, label="energy barrier [J]")
+    show_axis(figure.colorbar(shades, ax=ax).ax.yaxis, "energy barrier", "J")
+    write_levels(ax, lines)
     return ax

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.drawing.axes import readable
 from mjcont.errors import MjcontError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
-from mjcont.outside.escapes import for_picture
 from mjcont.results.branch import Branch
 from mjcont.results.histories import History
 from mjcont.results.loadpaths import Jump, LoadPath
@@ -118,7 +118,7 @@ def frames_of(track: Track, count: int) -> list[Frame]:
         step = track.problem.difference(track.states[i + 1], track.states[i])
         place = [float(c[i] + part * (c[i + 1] - c[i])) for c in (track.x, track.y)]
         state = track.problem.retract(track.states[i], part * step)
-        shown = ", ".join(f"{for_picture(n)} = {show(values[n], u, 6)}" for n, u in track.named.items())
+        shown = ", ".join(f"{readable(n)} = {show(values[n], u, 6)}" for n, u in track.named.items())
         shown = shown or f"time = {now:.{digits}f} s"
         note = f", {track.notes[i]}" if track.notes[i] else ""
         frames.append(Frame(state, values, place[0], place[1], i, shown + note))

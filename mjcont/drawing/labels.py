@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mjcont.drawing import notes
+from mjcont.drawing.axes import readable
 from mjcont.drawing.picture import Force, Picture, Spring
 from mjcont.drawing.shapes import Shape
 from mjcont.drawing.sketch import FORCE, INK, arrow
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.outside.escapes import for_picture
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,9 +31,10 @@ _CLEARANCE, _NEXT, _TOUCH, _CLASH = 4.0, 1.0, 30.0, 60.0
 
 def write_labels(ax: Axes, shown: Picture, unit: float, labels: Labels, scale: float) -> None:
     """Write the names that are wanted; axes and figure must have their final size."""
-    from matplotlib.patheffects import withStroke
+    from matplotlib.patheffects import Stroke
 
-    halo = [withStroke(linewidth=2.0 * scale, foreground="white")]
+    # letters of straight lines such as F lose one where lines snap to pixels
+    halo = [Stroke(linewidth=2.0 * scale, foreground="white", snap=False), Stroke(linewidth=0.0, snap=False)]
     ink = notes.drawn_points(ax)[::2]
     taken = [_rectangle(t) for t in ax.texts if t.get_text()]
     written = set()
@@ -53,13 +54,13 @@ def write_labels(ax: Axes, shown: Picture, unit: float, labels: Labels, scale: f
 def _wanted(labels: Labels, kind: str, name: str) -> str:
     """Return what to write for a name; nothing where it is not wanted."""
     if isinstance(labels, bool):
-        return for_picture(name) if labels else ""
+        return readable(name) if labels else ""
     if isinstance(labels, Mapping):
-        return str(labels[name]) if name in labels else for_picture(name)
+        return str(labels[name]) if name in labels else readable(name)
     unknown = [k for k in ([labels] if isinstance(labels, str) else labels) if k not in KINDS]
     if unknown:
         raise unknown_name("kind of label", str(unknown[0]), KINDS)
-    return for_picture(name) if kind in labels else ""
+    return readable(name) if kind in labels else ""
 
 
 # -- what may be named, and where ------------------------------------------------------------------------------

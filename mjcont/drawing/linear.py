@@ -8,26 +8,26 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.drawing.axes import readable
 from mjcont.drawing.picture import picture
 from mjcont.drawing.plotting import COLORS, LINE_STYLES, new_figure, set_panel_title
 from mjcont.drawing.poses import mechanism_of
 from mjcont.drawing.sketch import padded, render
-from mjcont.outside.escapes import for_picture
 
 if TYPE_CHECKING:
-    from mjcont.results.linear import Mode, Modes, Transfer
+    from mjcont.results.linear import Mode, Transfer
 
-_TIGHT, _WIDE, _FIRST = 0.05, 2.6, 6
+_TIGHT, _WIDE = 0.05, 2.6
 _BACK, _FRONT = "#b9c6d6", "#b8b8b8"
 
 
-def draw_modes(modes: Modes, numbers: Sequence[int] | None, cols: int, plane: str | None) -> Any:
+def draw_modes(chosen: Sequence[Mode], cols: int, plane: str | None) -> Any:
     """Draw a panel a mode: rest in grey, the other end of its swing in blue behind it, the mode on top."""
-    chosen = [modes.mode(n) for n in numbers] if numbers is not None else list(modes)[:_FIRST]
-    mechanism, values = mechanism_of(modes.point), modes.point.parameters
+    point = chosen[0].point
+    mechanism, values = mechanism_of(point), point.parameters
     shown = [
         [picture(mechanism, state, plane=plane, inputs=values)
-         for state in (m.displaced(math.pi), modes.point.state, m.displaced())]
+         for state in (m.displaced(math.pi), point.state, m.displaced())]
         for m in chosen
     ]
     boxes = np.array([padded(p, _TIGHT) for panel in shown for p in panel])
@@ -63,7 +63,7 @@ def draw_transfer(transfer: Transfer, decibels: bool, degrees: bool) -> Any:
         gain, color = factor * transfer.gain(name), COLORS[i % len(COLORS)]
         gain = np.where(gain > 0.0, gain, np.nan)  # a logarithm shows no zero
         top.plot(transfer.frequencies, 20.0 * np.log10(gain) if decibels else gain, color=color, linestyle=style,
-                 label=for_picture(name))
+                 label=readable(name))
         bottom.plot(transfer.frequencies, turn * transfer.phase(name), color=color, linestyle=style)
     top.set_xscale("log")
     units = {transfer.units[n] for n in transfer.outputs}
@@ -79,6 +79,6 @@ def draw_transfer(transfer: Transfer, decibels: bool, degrees: bool) -> Any:
     bottom.set_ylabel(f"phase [{'deg' if degrees else 'rad'}]")
     bottom.set_xlabel("frequency [Hz]")
     top.legend(loc="best")
-    title = f"{for_picture(transfer.input)} swings" + ("" if transfer.stable else ", about an unstable equilibrium")
+    title = f"{readable(transfer.input)} swings" + ("" if transfer.stable else ", about an unstable equilibrium")
     top.set_title(title, loc="left", fontsize=9.5)
     return figure

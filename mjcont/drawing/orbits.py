@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont.drawing.axes import axis_label
+from mjcont.arguments import checked
+from mjcont.drawing.axes import axis_label, show_axis
 from mjcont.drawing.plotting import COLORS, LINE_STYLES, new_figure
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.numerics.equations.problem import Array
@@ -22,6 +23,7 @@ _FINE = 16
 _TEXT = 9.0
 
 
+@checked
 def plot_orbits(
     *orbits: Any,
     x: str,
@@ -77,8 +79,7 @@ def plot_orbits(
         bar.set_label(axis_label(name, branch.unit(name), degrees), fontsize=_TEXT)
         bar.ax.tick_params(labelsize=_TEXT)
     first = given[0][0]
-    ax.set(xlabel=_label(first, x, degrees), ylabel=_label(first, y, degrees) if y is not None else
-           axis_label(f"rate of {x}", _per_second(first.unit(x), degrees), degrees))
+    _label(ax, first, x, y, degrees)
     return ax
 
 
@@ -121,8 +122,16 @@ def _values(orbit: Orbit, name: str, times: Array, degrees: bool) -> Array:
     return np.degrees(values) if degrees and orbit.unit(name) == "rad" else values
 
 
-def _label(orbit: Orbit, name: str, degrees: bool) -> str:
-    return axis_label(name, "s" if name == TIME else orbit.unit(name), degrees)
+def _label(ax: Axes, orbit: Orbit, x: str, y: str | None, degrees: bool) -> None:
+    show_axis(ax.xaxis, x, _unit(orbit, x), (), degrees)
+    if y is not None:
+        show_axis(ax.yaxis, y, _unit(orbit, y), (), degrees)
+    else:
+        ax.set_ylabel(f"rate of {axis_label(x, _per_second(orbit.unit(x), degrees), degrees)}")
+
+
+def _unit(orbit: Orbit, name: str) -> str:
+    return "s" if name == TIME else orbit.unit(name)
 
 
 def _per_second(unit: str, degrees: bool) -> str:

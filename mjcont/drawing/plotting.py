@@ -6,6 +6,7 @@ by the Agg canvas and need no display.
 
 from __future__ import annotations
 
+import inspect
 import io
 import warnings
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -14,15 +15,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mjcont.drawing.axes import show_axis
+from mjcont.arguments import checked
+from mjcont.drawing.axes import readable, show_axis, spread_ticks
 from mjcont.drawing.loadpaths import draw_path
-from mjcont.drawing.notes import LABEL, place_labels, xy
+from mjcont.drawing.notes import LABEL, LEGEND, POINT, place_labels, place_legend, xy
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS, name_of
 from mjcont.outside.escapes import for_picture
 from mjcont.outside.saving import write_file
-from mjcont.results.branch import Branch
+from mjcont.results.branch import Branch, Diagram
 from mjcont.results.loadpaths import LoadPath
 from mjcont.results.points import SpecialPoint, show
 from mjcont.results.quantities import column_of
@@ -36,6 +38,7 @@ COLORS = ("#1b4f8a", "#c4541a", "#2a7d5f", "#7b3fa0", "#8a6d1b", "#b02a4a", "#4d
 GREY = "#6e6e6e"
 LINE_STYLES: Mapping[str, Any] = {"stable": "-", "unstable": (0, (4.5, 2.0)), "marginal": (0, (1.0, 1.4))}
 MARKERS: Mapping[str, tuple[str, float]] = {k.code: k.marker for k in KINDS.values() if k.marker is not None}
+_MARKER = ("p", 6.0)  # of any other kind
 STYLE: Any = {
     "axes.axisbelow": True,
     "axes.edgecolor": "#333333",
@@ -70,10 +73,11 @@ def set_panel_title(ax: Axes, text: str) -> None:
     ax.set_title(text, loc="left", fontsize=9.5)
 
 
+@checked
 def plot(
-    *curves: Branch | LoadPath | Iterable[Branch | LoadPath],
-    x: str,
-    y: str,
+    *curves: Any,
+    x: str = "",
+    y: str = "",
     ax: Axes | None = None,
     degrees: bool = True,
     labels: bool | Mapping[str, str] = True,
@@ -83,16 +87,17 @@ def plot(
     title: str = "",
     units: str | Sequence[str] = (),
     key: bool = False,
-) -> Axes:
+) -> Any:
     """Draw branches and loci: solid where stable, dashed where unstable, dotted where marginal; loci solid.
 
     Of orbits an observable is drawn by its largest and smallest value. A load path is a broad line with arrows.
 
     Parameters
     ----------
-    *curves : Branch or LoadPath, or a Diagram or list of them
+    *curves : Branch or LoadPath, or a Diagram or list of them; or one result of another kind, drawn as it draws itself.
     x, y : str
         Columns: parameters or observables; `y` of a curve of orbits may be an observable or one of its columns.
+        By default an observable over the parameter.
     ax : matplotlib Axes, optional; default those of a new figure, which is `plot(...).figure`.
     degrees : whether angles are drawn in degrees.
     labels : bool, or mapping such as `{"LP1": "FP2"}` that renames some special points
@@ -109,24 +114,36 @@ def plot(
     NameLookupError
         If a branch has no such column; the message lists those it has.
     """
+    if len(curves) == 1 and hasattr(curves[0], "plot") and not isinstance(curves[0], Branch | LoadPath | Diagram):
+        return _of_its_own(curves[0], x=x, y=y, ax=ax)
     each = each_curve(curves)
     paths = [c for c in each if isinstance(c, LoadPath)]
     branches = [c for c in each if not isinstance(c, LoadPath)]
     _check(branches, legend, bool(paths))
+    x, y = x or each[0].axes[0], y or each[0].axes[1]
     for path in paths:
         _ = path[x], path[y]
     # Everything is read before anything is drawn, so that an unknown column leaves the axes as they were.
     data = [_lines(b, x, y, degrees, wrap) for b in branches]
-    if ax is None:
-        _, ax = new_figure()
+    own, ax = ax is None, ax if ax is not None else new_figure()[1]
     _draw_all(ax, branches, paths, data, (x, y), degrees, labels, colors, _names(branches, legend))
     for axis, name in ((ax.xaxis, x), (ax.yaxis, y)):
         show_axis(axis, name, _common_unit(each, name), units, degrees)
     if title:
         set_panel_title(ax, title)
-    _explain(ax, branches, legend, key)
-    place_labels(ax)
+    _explain(ax, branches, legend, key, own)
     return ax
+
+
+def _of_its_own(result: Any, **options: Any) -> Any:
+    """Let a result that is no curve draw itself."""
+    given = {name: value for name, value in options.items() if value is not None and value != ""}
+    takes = inspect.signature(result.plot).parameters
+    for name in given:
+        if name not in takes:
+            what, known = type(result).__name__, ", ".join(takes) or "nothing"
+            raise MjcontError(f"a {what} draws itself without '{name}'; {what}.plot takes {known}")
+    return result.plot(**given)
 
 
 def _draw_all(
@@ -160,24 +177,32 @@ def each_curve(curves: Iterable[Any]) -> list[Any]:
     """Return curves one by one: diagrams and lists of them are taken apart."""
     found: list[Any] = []
     for c in curves:
-        found += [c] if isinstance(c, Branch | LoadPath) or not isinstance(c, Iterable) else each_curve(c)
+        plain = isinstance(c, Branch | LoadPath | str) or not isinstance(c, Iterable)
+        found += [c] if plain else each_curve(c)
     return found
 
 
-def _explain(ax: Axes, branches: Iterable[Branch], legend: Sequence[str] | bool | None, key: bool) -> None:
-    """Add the legend, with the line styles on request, and what markers mean with a key."""
-    if legend is False:
-        return
-    if legend is True or key:
+def _explain(
+    ax: Axes, branches: Iterable[Branch], legend: Sequence[str] | bool | None, key: bool, own: bool
+) -> None:
+    """Add the legend, with the line styles on request, and what markers mean with a key; then place all names."""
+    if legend is not False:
+        _add_legend(ax, branches, legend is True, key)
+    place_legend(ax, own)
+    place_labels(ax)
+
+
+def _add_legend(ax: Axes, branches: Iterable[Branch], styles: bool, key: bool) -> None:
+    if styles or key:
         _explain_styles(ax, branches)
     if key:
-        kinds = dict.fromkeys(p.kind for b in branches for p in b.special_points if p.kind in MARKERS)
+        kinds = dict.fromkeys(p.kind for b in branches for p in b.special_points if p.kind != "EP")
         for kind in kinds:
-            shape, size = MARKERS[kind]
+            shape, size = MARKERS.get(kind, _MARKER)
             ax.plot([], [], marker=shape, markersize=size, linestyle="none", color=GREY if kind == "UZ" else "black",
                     label=f"{kind}: {name_of(kind)}")
     if any(not str(line.get_label()).startswith("_") for line in ax.lines):
-        ax.legend(frameon=True, framealpha=0.85, edgecolor="none", fontsize=8.5, loc="best")
+        ax.legend(frameon=True, framealpha=0.85, edgecolor="none", fontsize=8.5, loc="upper right").set_label(LEGEND)
 
 
 def _explain_styles(ax: Axes, branches: Iterable[Branch]) -> None:
@@ -235,8 +260,10 @@ def draw_curve(
         cuts = [first - 1, *sorted(b for b in breaks if first <= b < last), last]
         for a, b in zip(cuts, cuts[1:], strict=False):
             rows = slice(a + 1, b + 1)
+            # gaps hide what is drawn before, so that dashes of two curves that nearly coincide do not fill each other
+            gaps: dict[str, Any] = {} if word == "stable" else {"gapcolor": ax.get_facecolor(), "zorder": 1.9}
             ax.plot(xs[rows], ys[rows], color=color, linestyle=LINE_STYLES[word], linewidth=width, label="_curve",
-                    dash_capstyle="butt", solid_capstyle="butt")
+                    dash_capstyle="butt", solid_capstyle="butt", **gaps)
     if len(xs) == 1:
         ax.plot(xs, ys, color=color, marker=".", linestyle="none", label="_curve")
 
@@ -263,10 +290,10 @@ def mark(
     ax: Axes, x: float, y: float, kind: str = "LP", text: str = "", *, color: str = "black", hollow: bool = False
 ) -> None:
     """Draw one special point with its label, which `place_labels` moves off the curves."""
-    shape, size = MARKERS.get(kind, ("p", 6.0))
+    shape, size = MARKERS.get(kind, _MARKER)
     ink = GREY if kind == "UZ" else "black"
     edge = ink if shape == "x" or hollow else "white"
-    ax.plot([x], [y], marker=shape, markersize=size, linestyle="none", color=ink, zorder=4, label="_point",
+    ax.plot([x], [y], marker=shape, markersize=size, linestyle="none", color=ink, zorder=4, label=POINT, gid=str(size),
             markerfacecolor="white" if hollow else ink, markeredgecolor=edge,
             markeredgewidth=1.3 if edge == ink else 0.6)
     if text:
@@ -301,6 +328,8 @@ def save_figure(figure: Figure, path: str | Path, *, dpi: float = 200.0) -> Path
         try:
             figure.draw_without_rendering()
             for ax in figure.axes:
+                spread_ticks(ax)
+                place_legend(ax)
                 place_labels(ax)
             figure.savefig(picture, format=path.suffix.lower()[1:], dpi=dpi, metadata=metadata)
         except ValueError as error:  # a text between $ is drawn as a formula
@@ -362,7 +391,7 @@ def _names(branches: Sequence[Branch], legend: Sequence[str] | bool | None) -> l
     names = []
     for i, b in enumerate(branches):
         parts = [b.kind] if len({c.kind for c in branches}) > 1 else []
-        parts += [f"{for_picture(n)} = {show(b.fixed[n], _unit(b, n).replace('*', ' '), 4)}" for n in differing]
+        parts += [f"{readable(n)} = {show(b.fixed[n], _unit(b, n), 4).replace('*', ' ')}" for n in differing]
         own = for_picture(b.name) if len({c.name for c in branches}) == len(branches) else f"branch {i + 1}"
         parts = parts or [own]
         names.append(", ".join(parts))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.drawing import notes, plotting
 from mjcont.drawing.labels import Labels, write_labels
 from mjcont.drawing.picture import Picture, Pose, picture
@@ -25,6 +26,7 @@ _MARGIN, _TIGHT = 0.06, 0.025  # around a picture, with and without room for lab
 _TITLE = 11.0  # height of an inset's title, in points
 
 
+@checked
 def draw(
     mechanism: Mechanism,
     pose: Pose = None,
@@ -77,6 +79,7 @@ def draw(
     return ax
 
 
+@checked
 def draw_poses(
     mechanism: Mechanism,
     poses: Mapping[str, Pose],
@@ -137,6 +140,7 @@ def draw_poses(
     return figure
 
 
+@checked
 def add_poses(
     ax: Axes,
     points: Branch | Mapping[str, Point],

@@ -21,15 +21,22 @@ if TYPE_CHECKING:
 INK, GROUND, FORCE, BUSH = "#26282b", "#8d9196", "#b02a4a", "#b4bac1"
 # in parts of the picture's longer side
 _ARROW, _HEAD, _MOMENT = 0.14, 0.034, 0.055
+# of the longer side, the shorter one at least
+_SLIM = 0.4
 _PIN, _COIL = 0.010, 0.017
 
 
 def padded(shown: Picture, margin: float) -> Array:
-    """Return the box of a picture and its arrows, with a margin in parts of its longer side, (2, 2)."""
+    """Return the box of a picture and its arrows, with a margin in parts of its longer side, (2, 2).
+
+    A single rod would be a strip: the shorter side is some part of the longer one at least.
+    """
     box = shown.box
     size = max(float((box[1] - box[0]).max()), 1e-9)
     every = np.concatenate([box, *(arrow(f, size) for f in shown.forces)])
-    return np.array([every.min(axis=0) - margin * size, every.max(axis=0) + margin * size])
+    low, high = every.min(axis=0) - margin * size, every.max(axis=0) + margin * size
+    short = np.maximum(_SLIM * (high - low).max() - (high - low), 0.0)
+    return np.array([low - 0.5 * short, high + 0.5 * short])
 
 
 def arrow(force: Force, unit: float) -> Array:

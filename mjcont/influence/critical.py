@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import make_point
 from mjcont.curves.continuation import hold_rigid_modes
 from mjcont.curves.loci import CODIMENSION, followed_as
@@ -179,6 +180,7 @@ def check_alone(point: Point, name: str) -> None:
             )
 
 
+@checked
 def follow_point(
     point: SpecialPoint, values: Mapping[str, float], *, shortest: float = _SHORTEST, most: int = 400
 ) -> FollowedPoint:

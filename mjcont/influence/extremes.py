@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
+from mjcont.curves.collect import Amount
 from mjcont.errors import BoundsError, ParameterError, unknown_name
 from mjcont.influence.critical import check_targets, follow_point
 from mjcont.influence.maps import special_map
@@ -20,6 +22,7 @@ from mjcont.numerics.search.box import Minimum, minimise
 from mjcont.results.maps import FollowedPoint, SpecialMap, WorstCase
 from mjcont.results.model import units as unit_of
 from mjcont.results.points import SpecialPoint, show
+from mjcont.results.quantities import check_values
 
 _TOL = 1e-7
 _CORNERS = 4  # parameters up to which every corner of the box is a start
@@ -28,6 +31,7 @@ _SHORTEST = 1e-3
 _AT_BOUND = 1e-9
 
 
+@checked
 def worst_case(
     point: SpecialPoint,
     ranges: Mapping[str, tuple[float, float]],
@@ -37,6 +41,7 @@ def worst_case(
     starts: Sequence[Mapping[str, float]] | None = None,
     grid: int | None = None,
     tol: float = _TOL,
+    progress: Amount | None = None,
 ) -> WorstCase:
     """Return the largest (or smallest) value of a quantity of a special point over a box of parameters.
 
@@ -59,6 +64,7 @@ def worst_case(
         another run starts there.
     tol : float
         Projected gradient, relative to the quantity, at which a run has converged.
+    progress : called as progress(done, all), a run or a node of the grid each.
 
     Returns
     -------
@@ -72,18 +78,31 @@ def worst_case(
     box = _Box(point, _checked(point, ranges), quantity, maximise)
     if grid is not None and (len(ranges) > 2 or grid < 2):
         raise ParameterError("a confirming grid needs one or two parameters and at least two values of each")
-    runs = [box.run(start, tol) for start in box.starts(starts)]
+    return _searched(box, box.starts(starts), grid, tol, progress or (lambda done, total: None))
+
+
+def _searched(
+    box: _Box, starts: Sequence[Mapping[str, float]], grid: int | None, tol: float, tell: Amount
+) -> WorstCase:
+    """Run from every start, and from the best node of the grid that confirms where that is better."""
+    total = len(starts) + (grid ** len(box.ranges) if grid is not None else 0)
+    runs = []
+    for start in starts:
+        runs.append(box.run(start, tol))
+        tell(len(runs), total)
     found = [r for r in runs if r is not None]
-    field_ = special_map(point, box.grid(grid)) if grid is not None else None
-    if field_ is not None and field_.exists.any():
-        top = field_.largest(box.quantity, smallest=not maximise)
+    if grid is None:
+        return _result(box, found, len(runs), None)
+    nodes = special_map(box.point, box.grid(grid), progress=lambda done, nodes: tell(len(starts) + done, total))
+    if nodes.exists.any():
+        top = nodes.largest(box.quantity, smallest=not box.maximise)
         best = min((r.minimum.value for r in found), default=math.inf)
         if box.sign * top[box.quantity] / box.size < best - _SAME:
             box.known.append((box.unit(top.parameters), top))
-            again = box.run({n: top[n] for n in ranges}, tol)
+            again = box.run({n: top[n] for n in box.ranges}, tol)
             runs.append(again)
             found += [again] if again is not None else []
-    return _result(box, found, len(runs), field_)
+    return _result(box, found, len(runs), nodes)
 
 
 def _result(box: _Box, found: Sequence[_Run], tried: int, grid: SpecialMap | None) -> WorstCase:
@@ -205,9 +224,10 @@ class _Box:
     def starts(self, given: Sequence[Mapping[str, float]] | None) -> list[Mapping[str, float]]:
         """Return the parameter values to start from, the point's own first."""
         if given is not None:
-            if not given:
+            if not len(given):
                 raise ParameterError("name at least one start")
             for start in given:
+                check_values(start)
                 _inside(self.ranges, start)
             return list(given)
         own = np.clip(self.unit(self.point.parameters), 0.0, 1.0)

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
+from mjcont.curves.collect import Amount
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.influence.critical import check_targets, follow_point
 from mjcont.numerics.equations.problem import Array
@@ -16,7 +18,10 @@ from mjcont.results.points import SpecialPoint
 _SHORTEST = 1e-3
 
 
-def special_map(point: SpecialPoint, grid: Mapping[str, Sequence[float] | Array]) -> SpecialMap:
+@checked
+def special_map(
+    point: SpecialPoint, grid: Mapping[str, Sequence[float] | Array], *, progress: Amount | None = None
+) -> SpecialMap:
     """Follow a special point over a grid of one or two parameters.
 
     Every node is reached from a neighbour that has been, the one nearest to the point first; where the way from one
@@ -26,6 +31,7 @@ def special_map(point: SpecialPoint, grid: Mapping[str, Sequence[float] | Array]
     ----------
     point : SpecialPoint
     grid : mapping of parameter to increasing values, SI and radians
+    progress : called as progress(nodes reached, all)
 
     Returns
     -------
@@ -55,6 +61,8 @@ def special_map(point: SpecialPoint, grid: Mapping[str, Sequence[float] | Array]
                 if points[other] is None:
                     _reach(points[node], axes, other, points, messages)
                     reached += [other] if points[other] is not None else []
+                    if progress is not None:
+                        progress(sum(p is not None for p in points.flat), points.size)
         front = reached
     messages[np.vectorize(lambda p: p is None)(points) & (messages == "")] = "no neighbour was reached"
     return SpecialMap(point, axes, points, messages, point.model.evaluations - before)

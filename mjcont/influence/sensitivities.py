@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.influence.critical import check_alone, check_not_own, defining_kind, point_names, point_system
 from mjcont.numerics.equations.adjoint import Adjoint
@@ -19,7 +20,6 @@ from mjcont.numerics.equations.system import System, equation_scale
 from mjcont.results.points import Point
 from mjcont.results.quantities import Parameter
 from mjcont.results.sensitivities import Sensitivities, checked_tolerances
-from mjcont.results.text import check_kind
 
 PER_CENT = 0.01
 DEGREE = math.radians(1.0)
@@ -35,6 +35,7 @@ def default_tolerance(value: float, unit: str, bounds: tuple[float, float]) -> f
 
 
 @np.errstate(all="ignore")
+@checked
 def sensitivities(
     point: Point,
     parameters: str | Sequence[str] | None = None,
@@ -66,7 +67,6 @@ def sensitivities(
         If the point has no regular defining system or did not converge, a name is unknown, a parameter is one that
         the point determines, or shares its field with another that has been changed.
     """
-    check_kind("the point", point, Point, 'take one of a branch: branch.point("LP1"), or branch.at(...)[0]')
     defining_kind(point)
     before = point.model.evaluations
     names = _parameters(point, parameters)

@@ -19,15 +19,6 @@ from mjcont.outside.memory import give_back
 from mjcont.results.text import ParameterTable
 
 _DISABLE = mujoco.mjtDisableBit
-# what numerics and verbs ask of a Mechanism, and no user needs
-ENGINE = frozenset(
-    """
-    active admissible constrained declare_again difference_each failure first_order follows_scale held holding
-    holds_straight linearize_along measure_along nonsmooth one_pattern own_jacobian parameter_stencil passive pencils
-    periods pieces rescaled residuals residuals_along retract_each rigid_directions rigid_modes second_order
-    side_by_side writer
-    """.split()
-)
 
 
 class Core:

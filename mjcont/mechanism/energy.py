@@ -1,4 +1,4 @@
-"""Potential energy of a mechanism at rest: gravity, the springs of joints and tendons, bushes, and loads that have one.
+"""Energy of a mechanism: gravity, the springs of joints and tendons, bushes, loads that have a potential, and motion.
 
 A load has a potential where it acts along a coordinate of the mechanism: on a joint, or along a tendon. A force that
 turns with a body (a follower force) has none; that is found out by comparing the energy's gradient with the forces.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import copy
 import math
+from collections.abc import Callable
 from typing import Any
 
 import mujoco
@@ -31,6 +32,11 @@ def _energy(model: mujoco.MjModel, data: mujoco.MjData) -> float:
 
 def _energy_with_loads(model: mujoco.MjModel, data: mujoco.MjData) -> float:
     return _sum(model, data, loads=True)
+
+
+def _energy_in_motion(model: mujoco.MjModel, data: mujoco.MjData) -> float:
+    mujoco.mj_energyVel(model, data)
+    return _energy_with_loads(model, data) + float(data.energy[1])
 
 
 def _sum(model: mujoco.MjModel, data: mujoco.MjData, *, loads: bool) -> float:
@@ -68,9 +74,21 @@ def potential_energy(problem: Any, states: Array, values: Values, *, loads: bool
     """
     if not hasattr(problem, "simulation_model"):
         return np.full(len(states), math.nan)
+    return _read(problem, _energy_with_loads if loads else _energy, states, values)
+
+
+def energy_in_motion(mechanism: Any, states: Array, speeds: Array, values: Values) -> Array:
+    """Return the energy of motion and position, loads included, at states (m, nq) and velocities (m, nv), in J."""
+    return _read(mechanism, _energy_in_motion, states, values, speeds)
+
+
+def _read(
+    problem: Any, function: Callable[[Any, Any], float], states: Array, values: Values, speeds: Array | None = None
+) -> Array:
     reader = copy.copy(problem)
-    reader.observables = {"energy": Observable("energy", "J", _energy_with_loads if loads else _energy)}
-    return reader.measure(states, values)[:, 0]
+    reader.observables = {"energy": Observable("energy", "J", function)}
+    found: Array = reader.measure(states, values, None, speeds)[:, 0]
+    return found
 
 
 def without_potential(problem: Any, x: Array, values: Values) -> str:

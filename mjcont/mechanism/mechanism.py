@@ -17,8 +17,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from mjcont.errors import ParameterError, unknown_name
-from mjcont.mechanism.core import ENGINE, copy_model, evaluation_copy, is_constrained, owned_copy
+from mjcont.arguments import checked
+from mjcont.errors import BoundsError, ParameterError, unknown_name
+from mjcont.mechanism.core import copy_model, evaluation_copy, is_constrained, owned_copy
 from mjcont.mechanism.declarations import Declaration
 from mjcont.mechanism.geometry import Geometry, refuse_overlap
 from mjcont.mechanism.observables import Observed, model_observables
@@ -33,7 +34,7 @@ from mjcont.models.manifold import Manifold
 from mjcont.models.states import checked_state, keyframes, model_name, state_labels, state_scale
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.model import Model
-from mjcont.results.quantities import Parameter, told_apart
+from mjcont.results.quantities import Parameter, check_name, check_values, told_apart
 from mjcont.results.text import ParameterTable
 
 
@@ -66,6 +67,7 @@ class Mechanism(Shareable, Observed, Held, Model):
     parameters: ParameterTable
     declared: dict[str, Any]
 
+    @checked
     def __init__(
         self,
         model: mujoco.MjModel,
@@ -113,18 +115,21 @@ class Mechanism(Shareable, Observed, Held, Model):
         return cls(loaded.model, loaded.text, friction, loaded.notes, geometry)
 
     @classmethod
+    @checked
     def from_spec(cls, spec: mujoco.MjSpec, *, friction: str = "frictionless") -> Mechanism:
         """Take an `MjSpec` (copied), without what needs files that are not there."""
         loaded = loading.load_spec(spec)
         return cls(loaded.model, loaded.text, friction, loaded.notes, Geometry(loaded.spec))
 
     @classmethod
+    @checked
     def from_model(cls, model: mujoco.MjModel, *, friction: str = "frictionless") -> Mechanism:
         """Take a compiled model (copied). Its results cannot carry the MJCF: load them with `problem=`."""
         return cls(model, friction=friction)
 
     # -- parameters ----------------------------------------------------------------------------------------
 
+    @checked
     def declare(
         self,
         name: str,
@@ -151,6 +156,8 @@ class Mechanism(Shareable, Observed, Held, Model):
         with self._cores.lock:
             if name in self.parameters:
                 raise ParameterError(f"parameter '{name}' is declared twice")
+            if bounds is not None and np.shape(bounds) != (2,):
+                raise BoundsError(f"bounds of {name} must be two numbers (low, high), got {bounds!r}")
             given, core = Declaration(name, unit, bounds, tuple(paths), function, value), self._core
             parameter = declared_parameter(core.as_loaded(), core.geometry, given)
             self.parameters[name] = parameter
@@ -165,6 +172,7 @@ class Mechanism(Shareable, Observed, Held, Model):
 
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`; a path such as `joint:hip.stiffness` is one, too."""
+        check_name(name)
         with self._cores.lock:
             if ":" in name and name not in self.parameters:
                 self.declare(name, name)
@@ -180,7 +188,8 @@ class Mechanism(Shareable, Observed, Held, Model):
         BoundsError, ParameterError
             If MuJoCo would clamp a control there, or the model does not compile.
         """
-        given = given or {}
+        given = {} if given is None else given
+        check_values(given)
         for name, value in given.items():
             self.parameter(name).check(value)
         merged = {name: p.value for name, p in list(self.parameters.items())}
@@ -310,6 +319,7 @@ class Mechanism(Shareable, Observed, Held, Model):
 
     # -- states ----------------------------------------------------------------------------------------------
 
+    @checked
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return a start: the state given, or a keyframe's, or qpos0.
 
@@ -335,10 +345,6 @@ class Mechanism(Shareable, Observed, Held, Model):
     def bushes(self) -> list[str]:
         """Names of the bush actuators."""
         return bush_names(self._core.model)
-
-    def __dir__(self) -> list[str]:
-        """List what a user may use; the rest of the public methods is what the numerics ask for."""
-        return sorted(set(super().__dir__()) - ENGINE)
 
     def __str__(self) -> str:
         """List what can be continued, what can be read, and where to start."""

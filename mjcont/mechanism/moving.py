@@ -16,8 +16,10 @@ import numpy as np
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.actuators import actuator_name, actuator_of, follower, integrator
 from mjcont.models.manifold import chart_of
+from mjcont.models.resistance import resistances
 from mjcont.numerics.equations.differences import FOURTH_ORDER, SECOND_ORDER
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.results.model import Model
 from mjcont.results.orbits import charts
 from mjcont.results.orbits.charts import EDGE, Chart
 
@@ -172,6 +174,14 @@ def _unfit_activation(model: mujoco.MjModel) -> str:
         if muscle and model.actuator_dynprm[a, 0] != model.actuator_dynprm[a, 1] and model.actuator_dynprm[a, 2] <= 0.0:
             return f"muscle {name} switches between two time constants at once: give it a tausmooth"
     return ""
+
+
+def losses(mechanism: Model, values: Values) -> list[str]:
+    """Return what takes energy from a mechanism's motion at parameter values, a phrase each."""
+    assert isinstance(mechanism, Mechanism)
+    core = mechanism._core
+    core.writer.write(mechanism.parameters, values)
+    return resistances(core.model)
 
 
 def has_activations(mechanism: Mechanism) -> bool:

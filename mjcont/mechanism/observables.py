@@ -14,6 +14,7 @@ from typing import Any, Protocol
 import mujoco
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import unknown_name
 from mjcont.mechanism.batches import Rows
 from mjcont.mechanism.declarations import declarations
@@ -202,6 +203,7 @@ class Observed:
     def _core(self) -> _Reading:
         raise NotImplementedError
 
+    @checked
     def observe(self, name: str, function: Callable[[Any, Any], float], unit: str = "") -> None:
         """Add an observable computed by `function(model, data)` from MuJoCo's model and data.
 

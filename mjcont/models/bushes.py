@@ -17,6 +17,7 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import ModelError, ModelWarning, ParameterError, unknown_name
 from mjcont.models import assets, loading
 from mjcont.models.bushsections import (
@@ -53,6 +54,7 @@ class _NotInText(Exception):
     """An element that the compiled model has and the text has not: made by include, replicate or attach."""
 
 
+@checked
 def add_bushes(
     model: str | Path | mujoco.MjSpec,
     joints: Sequence[str] | None = None,
@@ -67,6 +69,7 @@ def add_bushes(
     return _noted(spec, notes)
 
 
+@checked
 def bushed_xml(
     model: str | Path | mujoco.MjSpec,
     joints: Sequence[str] | None = None,
@@ -127,6 +130,7 @@ def bushed_xml(
     return str(edited)
 
 
+@checked
 def set_constraint_stiffness(
     model: str | Path | mujoco.MjSpec,
     stiffness: float = 1e6,

@@ -155,6 +155,8 @@ def constraint_stiffness(mechanism: Any) -> list[ConstraintStiffness]:
     list of ConstraintStiffness
         In the model's order; a weld gives two, for translation and rotation.
     """
+    if not (isinstance(mechanism, mujoco.MjModel) or hasattr(mechanism, "simulation_model")):
+        raise ParameterError(f"constraint_stiffness takes a Mechanism or an MjModel, got a {type(mechanism).__name__}")
     model = mechanism if isinstance(mechanism, mujoco.MjModel) else mechanism.simulation_model()
     off = mujoco.mjtDisableBit.mjDSBL_CONSTRAINT | mujoco.mjtDisableBit.mjDSBL_EQUALITY
     if model.opt.disableflags & int(off):

@@ -129,7 +129,7 @@ def friction_notes(model: mujoco.MjModel, friction: str) -> list[str]:
     ParameterError
         If `friction` is no valid choice.
     """
-    if friction not in FRICTION:
+    if not isinstance(friction, str) or friction not in FRICTION:
         raise ParameterError(f"unknown friction '{friction}'. Valid: {', '.join(FRICTION)}.")
     notes = []
     dry, contacts = list(_with_dry_friction(model)), list(islice(_with_contact_friction(model), _SHOWN + 1))

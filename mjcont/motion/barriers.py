@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import islice
+from itertools import islice, pairwise
 from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
+from mjcont.curves.collect import Amount
 from mjcont.curves.continuation import continue_equilibria, hold_rigid_modes
 from mjcont.curves.search import find_equilibria
 from mjcont.errors import MjcontError, ParameterError
@@ -37,6 +39,7 @@ _APART = 0.25
 _PASSES = 2
 
 
+@checked
 def energy_barrier(point: Point, saddles: Saddles | None = None) -> Barrier:
     """Return the energy barrier between a rest and the lowest pass that leads away from it.
 
@@ -60,13 +63,17 @@ def energy_barrier(point: Point, saddles: Saddles | None = None) -> Barrier:
     return _barrier(problem, point, _candidates(problem, point, saddles))
 
 
-def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: bool = True) -> BarrierCurve:
+@checked
+def barrier_along(
+    branch: Branch, saddles: Saddles | None = None, *, search: bool = True, progress: Amount | None = None
+) -> BarrierCurve:
     """Return the energy barriers along the stable points of a branch.
 
     Rows closer to the last than a quarter of the branch's largest step are passed over, but for the branch's start,
     special points and the last one.
     Passes are taken from the branch itself, from `saddles`, and from a search over all equilibria at the ends and in
     the middle of the range, whose passes are followed from there. A pass that is on none of these is missed.
+    `progress(done, all)` hears of every rest.
 
     Raises
     ------
@@ -83,10 +90,18 @@ def barrier_along(branch: Branch, saddles: Saddles | None = None, *, search: boo
     rows = _spaced(branch, rows, labels)
     rests = [branch.row(i) for i in rows]
     folds = [labels[i].startswith("LP") for i in rows]
-    barriers = _along(branch, rests, folds, _listed(saddles), search)
+    barriers = _along(branch, rests, folds, _listed(saddles), search, progress)
     energy = np.array([b.energy for b in barriers])
     values = np.array([p[name] for p in rests])
-    return BarrierCurve(name, branch.unit(name), values, energy, np.array(rows), tuple(barriers))
+    pieces = _pieces(branch.stability, rows, folds)
+    return BarrierCurve(name, branch.unit(name), values, energy, np.array(rows), tuple(barriers), pieces)
+
+
+def _pieces(stability: Sequence[str] | Array, rows: Sequence[int], folds: Sequence[bool]) -> Array:
+    """Return the number of the stable piece that each of some rows belongs to; between two pieces rows are unstable."""
+    cut = [(folds[k] and folds[k + 1]) or any(s == "unstable" for s in stability[i + 1 : j])
+           for k, (i, j) in enumerate(pairwise(rows))]
+    return np.concatenate([[0], np.cumsum(cut, dtype=int)])
 
 
 def _spaced(branch: Branch, rows: Sequence[int], labels: Sequence[str]) -> list[int]:
@@ -106,6 +121,7 @@ def _spaced(branch: Branch, rows: Sequence[int], labels: Sequence[str]) -> list[
     return kept
 
 
+@checked
 def barrier_map(point: Point, grid: Mapping[str, Any], *, search: bool = True) -> BarrierMap:
     """Return the energy barriers of a rest over a grid of two parameters.
 
@@ -179,7 +195,8 @@ def _rest_at(branch: Branch, name: str, value: float) -> Point | None:
 
 
 def _along(
-    branch: Branch, rests: Sequence[Point], folds: Sequence[bool], saddles: Sequence[Any], search: bool
+    branch: Branch, rests: Sequence[Point], folds: Sequence[bool], saddles: Sequence[Any], search: bool,
+    progress: Amount | None = None,
 ) -> list[Barrier]:
     """Return the barriers of rests of a branch; passes found by a search are followed for the rests that come after."""
     if not rests:
@@ -197,6 +214,8 @@ def _along(
             found.append(Barrier(0.0, rest, rest, None, 0, "a fold: the rest meets its pass"))
         else:
             found.append(_barrier(problem, rest, _candidates(problem, rest, known)))
+        if progress is not None:
+            progress(len(found), len(rests))
     return found
 
 

@@ -63,7 +63,7 @@ def _check_orbit(
     branch: CycleBranch, row: int, amplitude: float, tolerance: float, resolution: float, max_steps: int
 ) -> Check:
     orbit, word = branch.orbits[row], str(branch.stability[row])
-    own = np.delete(orbit.multipliers, orbit.trivial) if orbit.trivial >= 0 else orbit.multipliers
+    own = orbit.multipliers[orbit.own]
     largest = complex(own[np.argmax(np.abs(own))]) if len(own) else 0.0j
     size = max(abs(largest), 1e-300)
     s = complex(math.log(size), math.atan2(largest.imag, largest.real)) / orbit.period

@@ -21,6 +21,7 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
+from mjcont.arguments import checked
 from mjcont.curves.continuation import hold_rigid_modes
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.mechanism.batches import load_side
@@ -67,6 +68,7 @@ class _Probe:
         return self.step * self.count
 
 
+@checked
 def verify_stability(
     branch: Branch,
     n: int = 20,

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.continuation import start_from
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
@@ -63,6 +64,7 @@ class _Outcome:
     stalled: str = ""
 
 
+@checked
 def simulate(
     problem: Model | Orbit | OrbitPoint | SpecialOrbit,
     inputs: Mapping[str, Input] | None = None,
@@ -163,6 +165,7 @@ def _driven(orbit: Orbit, name: str) -> Callable[[float], float]:
     return lambda t: float(orbit.inputs(np.array([t]))[name][0])
 
 
+@checked
 def simulate_many(
     mechanism: Mechanism,
     cases: Sequence[Mapping[str, Any]],

@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.curves.collect import collect, run_directions
+from mjcont.arguments import checked
+from mjcont.curves.collect import Amount, Progress, collect, run_directions
 from mjcont.curves.continuation import find_equilibrium, hold_rigid_modes
 from mjcont.curves.walkers import equilibrium_detectors
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
@@ -25,8 +26,9 @@ from mjcont.numerics.equations.algebra import eigenvectors, singular, solve
 from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array, Values
-from mjcont.numerics.equations.settings import Settings, make_settings
+from mjcont.numerics.equations.settings import Settings, check_numbers, make_settings
 from mjcont.numerics.equations.system import Local, System
+from mjcont.numerics.points.passage import Passage, passage
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint
@@ -34,7 +36,9 @@ from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.trace import Walker
 from mjcont.results.branch import Branch, sliced
 from mjcont.results.loadpaths import Jump, LoadPath, Segment
+from mjcont.results.model import Model
 from mjcont.results.points import Point, SpecialPoint, show
+from mjcont.results.quantities import check_values, finite
 
 LANDINGS = ("motion", "creep")
 # how far beyond the point of loss the load is taken, relative to the leg: where another rest may be near, farther
@@ -42,10 +46,13 @@ _HAIR = 1e-6
 _BEYOND = 1e-3
 _ASIDE = 1e-3
 _TURNED = -1e-6
+# a load is zero below this part of the way left
+_NO_LOAD = 1e-6
 
 
+@checked
 def load_path(
-    source: Any,
+    source: Branch | Model,
     parameter: str | Sequence[Mapping[str, float]],
     path: Sequence[float] | None = None,
     start: Mapping[str, float] | Point | None = None,
@@ -55,6 +62,7 @@ def load_path(
     landing: str = "motion",
     max_time: float = 1000.0,
     max_jumps: int = 50,
+    progress: Amount | None = None,
     **options: Any,
 ) -> LoadPath:
     """Return the quasi-static response to a load that follows a path.
@@ -74,6 +82,7 @@ def load_path(
         large damping: quick, and never short of damping.
     max_time : in s, after which a motion counts as not coming to rest.
     max_jumps : number of jumps after which the path ends.
+    progress : called as progress(legs done, all), with the part of the present leg that is behind.
     **options : fields of `Settings`: ds, ds_max, ...
 
     Returns
@@ -87,10 +96,7 @@ def load_path(
         See their messages.
     """
     problem, given = _sourced(source)
-    if landing not in LANDINGS:
-        raise ParameterError(f"landing must be one of {', '.join(LANDINGS)}; got {landing!r}")
-    if not (max_time > 0 and max_jumps >= 0):
-        raise ParameterError(f"max_time must be positive and max_jumps not negative, got {max_time:g} and {max_jumps}")
+    _check_landing(landing, max_time, max_jumps)
     settings = replace(make_settings(options), chord=math.inf)  # rows are the points that were reached in turn
     vertices = _vertices(problem, parameter, path, start)
     before = problem.evaluations
@@ -98,12 +104,19 @@ def load_path(
     held, _ = hold_rigid_modes(problem, first.state, first.parameters)
     if first.n_unstable:
         raise StartError(f"the path begins at an unstable equilibrium, at which nothing rests: {first}")
-    follower = _Follower(held, settings, landing == "motion", max_time, max_jumps, [], [])
+    follower = _Follower(held, settings, landing == "motion", max_time, max_jumps, [], [], progress)
     status, message = follower.run(first, vertices)
-    return LoadPath(
-        problem.name, vertices, tuple(follower.segments), tuple(follower.jumps), status, message,
-        problem.evaluations - before + follower.stepped, problem,
-    )
+    count = problem.evaluations - before + follower.stepped
+    done = tuple(follower.segments), tuple(follower.jumps)
+    return LoadPath(problem.name, vertices, *done, status, message, count, problem)
+
+
+def _check_landing(landing: str, max_time: float, max_jumps: int) -> None:
+    if landing not in LANDINGS:
+        raise ParameterError(f"landing must be one of {', '.join(LANDINGS)}; got {landing!r}")
+    check_numbers({"max_time": max_time, "max_jumps": max_jumps})
+    if not (max_time > 0 and max_jumps >= 0):
+        raise ParameterError(f"max_time must be positive and max_jumps not negative, got {max_time:g} and {max_jumps}")
 
 
 def _sourced(source: Any) -> tuple[Any, Branch | None]:
@@ -128,7 +141,8 @@ def _vertices(problem: Any, parameter: Any, path: Any, start: Any) -> list[dict[
         raise ParameterError("a path in several parameters is a list of dicts, such as [{'F': 0}, {'F': 3, 'G': 1}]")
     names = list(dict.fromkeys(n for r in rows for n in r))
     known = start.parameters if isinstance(start, Point) else (start or {})
-    current = {n: float(known.get(n, problem.parameter(n).value)) for n in names}
+    check_values(known)
+    current = {n: finite(n, known.get(n, problem.parameter(n).value)) for n in names}
     found: list[dict[str, float]] = []
     for row in rows:
         try:
@@ -194,7 +208,9 @@ class _Follower:
     max_jumps: int
     segments: list[Segment]
     jumps: list[Jump]
+    progress: Amount | None = None
     stepped: int = 0
+    legs: int = 0
 
     def run(self, first: Point, vertices: Sequence[Values]) -> tuple[str, str]:
         """Follow all legs, as far as the time allows; return status and sentence."""
@@ -205,7 +221,7 @@ class _Follower:
             return "max time", f"the limit of {self.settings.max_seconds:g} s was reached"
 
     def _legs(self, first: Point, vertices: Sequence[Values]) -> tuple[str, str]:
-        at, rows = first, 0
+        at, rows, self.legs = first, 0, len(vertices) - 1
         for leg, target in enumerate(vertices[1:]):
             while any(target[n] != at.parameters[n] for n in target):
                 segment, ended, lost = self._follow(at, target, leg)
@@ -243,7 +259,8 @@ class _Follower:
         detectors = equilibrium_detectors(system, self.settings, {})
         stepper = OneByOne(system, self.settings, detectors)
         walker = Walker(stepper, _unstable(system, forward), frozenset({"LP", "HB", "BP"}))
-        traces = run_directions(walker, at.state, system.start_y(), (float(forward),), None)
+        heard = self._hearing(leg, name, (low, high))
+        traces = run_directions(walker, at.state, system.start_y(), (float(forward),), heard)
         if not traces[0].points:
             return None, (traces[0].end.status.value, traces[0].end.message), None
         branch = collect("equilibria", system, traces, (float(forward),), "along the load path", self.settings)
@@ -255,6 +272,14 @@ class _Follower:
                 there = [p for p in branch.special_points if p.index == end]
                 lost = replace(lost, point=there[0] if there else branch.row(end))
         return Segment(branch, forward, leg), branch.ends[0], lost
+
+    def _hearing(self, leg: int, name: str, ends: tuple[float, float]) -> Progress | None:
+        """Return what hears of the points of a leg whose parameter runs from one end to the other."""
+        progress = self.progress
+        if progress is None:
+            return None
+        (begin, end) = ends
+        return lambda count, found: progress(leg + (found.parameters[name] - begin) / (end - begin), self.legs)
 
     def _jump(self, lost: _Lost, target: Values, index: int) -> Jump:
         """Let the state at which the rest is lost move, and return the jump."""
@@ -273,15 +298,31 @@ class _Follower:
         message = landing.message
         if landing.point is None and lost.kind == "HB":
             message += ": the rest gives way to an oscillation"
+        elif landing.status == "no rest" and self.inertia:
+            message += '; landing="creep" lands without inertia, and max_time= waits longer'
         if lost.kind == "BP":
             message += "; which way it goes is decided by imperfections, one was chosen"
         return Jump(label, lost.kind, point, landing.point, index, energy, note, landing.time, landing.steps,
-                    landing.status, message, landing.states)
+                    landing.status, message, landing.states, *_passage(problem, point, target))
 
 
 def _toward(values: Values, target: Values, fraction: float) -> dict[str, float]:
     """Return parameter values a fraction of the rest of the way further."""
     return {**values, **{n: values[n] + fraction * (target[n] - values[n]) for n in target}}
+
+
+def _passage(problem: Any, point: Point, target: Values) -> tuple[str, float, Passage | None]:
+    """Return what the load changes first, its size there, and how a load that moves on to a target passes a fold."""
+    ways = {n: target[n] - point.parameters[n] for n in target if target[n] != point.parameters[n]}
+    vectors = point.vectors if isinstance(point, SpecialPoint) and point.kind == "LP" else {}
+    if not ways or not {"v", "w"} <= set(vectors):
+        return next(iter(target)), math.nan, None
+    first, way = next(iter(ways.items()))
+    local = Local(problem, point.state, point.parameters, tuple(ways), True)
+    slopes = local.par @ np.array([w / way for w in ways.values()])
+    size = abs(point.parameters[first])
+    size = size if size > _NO_LOAD * abs(way) else abs(way)
+    return first, size, passage(local, vectors["v"], vectors["w"], slopes)
 
 
 def _unstable(system: System, forward: int) -> Any:

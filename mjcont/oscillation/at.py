@@ -32,8 +32,8 @@ def orbits_at_value(branch: CycleBranch, name: str, value: float) -> list[OrbitP
         b = float(column[j])
         if a == 0.0 or a * b < 0.0:
             flow = flow_for(branch.model, branch.forcing, branch.orbits[i].chart)
-            between = _between(flow, branch.orbits[i], branch.orbits[j], a / (a - b) if a else 0.0)
-            point = settled(flow, between, {**branch.parameters_at(i), name: value}, branch.orbits[i].shift, branch)
+            near = between(flow, branch.orbits[i], branch.orbits[j], a / (a - b) if a else 0.0)
+            point = settled(flow, near, {**branch.parameters_at(i), name: value}, branch.orbits[i].shift, branch)
             found += [point] if point is not None else []
     return found
 
@@ -41,7 +41,8 @@ def orbits_at_value(branch: CycleBranch, name: str, value: float) -> list[OrbitP
 _SHARPER = 0.01
 
 
-def _between(flow: ModelFlow, one: Orbit, other: Orbit, fraction: float) -> Path:
+def between(flow: ModelFlow, one: Orbit, other: Orbit, fraction: float) -> Path:
+    """Return what lies between two orbits of a curve, in the coordinates of the first."""
     theirs = flow_for(flow.model, other.forcing, other.chart)
     a, b = one.path, flow.taken(other.path.carried(one.path.mesh), theirs)
     s, w = ((1.0 - fraction) * x + fraction * y for x, y in ((a.s, b.s), (a.w, b.w)))

@@ -14,6 +14,7 @@ from mjcont.errors import StartError
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
+from mjcont.numerics.orbits.conserved import ENERGY
 from mjcont.numerics.orbits.follow import MeshSettings
 from mjcont.numerics.orbits.points import error_at, multipliers_at, orbits_at, path_at
 from mjcont.numerics.points.events import Located
@@ -21,6 +22,7 @@ from mjcont.numerics.spectra.spectrum import MARGINAL, STABLE, UNSTABLE
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.walk.steps import Item
 from mjcont.numerics.walk.trace import Trace
+from mjcont.oscillation.conserving import Conserving
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.results.model import provenance
 from mjcont.results.orbits import CycleBranch, Orbit, readings
@@ -46,14 +48,18 @@ def make_orbit(point: CurvePoint) -> Orbit:
     flow, path, m, values = flow_at(point), path_at(point), multipliers_at(point), point.local.values
     return Orbit(
         path, flow.reading(path, values), dict(values), flow.units(), m.values, m.resolved, m.trivial,
-        error_at(point), flow.model.name, flow.model, orbits_at(point).shift, flow.record(), flow.activated, flow.chart,
+        error_at(point), flow.model.name, flow.model, orbits_at(point).shift, flow.record(), flow.activated,
+        float(flow.energies(path.s[:1], values)[0]) if isinstance(flow, Conserving) else None,
+        flow.chart,
     )
 
 
 def verdict(orbit: Orbit, kind: str = "") -> tuple[str, int]:
-    """Return stability and the number of multipliers outside the unit circle, beside those that a kind holds on it."""
-    own = np.arange(len(orbit.multipliers)) != orbit.trivial
-    sizes = np.abs(orbit.multipliers[own])
+    """Return stability and the number of multipliers outside the unit circle, beside those that a kind holds on it.
+
+    Where energy is kept the multipliers of a stable orbit are on the circle.
+    """
+    sizes = np.abs(orbit.multipliers[orbit.own])
     if not np.isfinite(sizes).all():
         return MARGINAL, 0
     off = abs(orbit.multipliers[orbit.trivial] - 1.0) if orbit.trivial >= 0 else 0.0
@@ -63,7 +69,7 @@ def verdict(orbit: Orbit, kind: str = "") -> tuple[str, int]:
         return MARGINAL, int(np.count_nonzero(sizes[nearest] > 1.0 + noise))
     if (sizes > 1.0 + noise).any():
         return UNSTABLE, int(np.count_nonzero(sizes > 1.0 + noise))
-    return (MARGINAL if (sizes > 1.0 - noise).any() else STABLE), 0
+    return (MARGINAL if orbit.energy is None and (sizes > 1.0 - noise).any() else STABLE), 0
 
 
 def reporter(progress: Progress | None) -> Callable[[Item], None] | None:
@@ -74,13 +80,10 @@ def reporter(progress: Progress | None) -> Callable[[Item], None] | None:
 
     def report(item: Item) -> None:
         nonlocal count
-        if isinstance(item, CurvePoint):
-            count += 1
-            progress(count, None)
-        elif isinstance(item, Located):
-            system_values = item.point.local.values
-            names = item.point.local.wrt
-            progress(count, Found(item.kind, {n: system_values[n] for n in names}, {}))
+        if isinstance(item, CurvePoint | Located):
+            count += isinstance(item, CurvePoint)
+            kind, local = ("", item.local) if isinstance(item, CurvePoint) else (item.kind, item.point.local)
+            progress(count, Found(kind, {n: local.values[n] for n in local.wrt}, {}))
 
     return report
 
@@ -174,6 +177,8 @@ def _columns(flow: ModelFlow, orbits: Sequence[Orbit], system: System) -> dict[s
     for name, unit in (("period", "s"), ("frequency", "Hz")):
         if name not in own:
             found[name] = Column(name, unit, "orbit", _frozen([getattr(o, name) for o in orbits]))
+    if isinstance(flow, Conserving) and ENERGY not in found:
+        found[ENERGY] = Column(ENERGY, flow.energy_unit, "orbit", _frozen([o.energy for o in orbits]))
     read = [readings(o.path, o.reading, flow.forced) for o in orbits]
     for k, (name, o) in enumerate(flow.model.observables.items()):
         for what in read[0]:

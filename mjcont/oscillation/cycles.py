@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction, start_from
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
@@ -23,7 +24,7 @@ from mjcont.oscillation.starts import harmonic_orbit, hopf_vector
 from mjcont.oscillation.walks import Entry, Options, Stop, flow_of, read_options, run
 from mjcont.results.histories import History
 from mjcont.results.model import Model, check_bounds
-from mjcont.results.orbits import CYCLES, RESPONSES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit
+from mjcont.results.orbits import CYCLES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point, SpecialPoint
 from mjcont.vectorfield import VectorField
 
@@ -33,6 +34,7 @@ Start = Mapping[str, float] | Point | History
 
 
 @np.errstate(all="ignore")
+@checked
 def continue_cycles(
     origin: SpecialPoint | OrbitPoint | Orbit | Model,
     parameter: str | None = None,
@@ -67,7 +69,7 @@ def continue_cycles(
     stop : callable, optional
         `stop(point)` returns a sentence to end the curve there; `point.orbit` is its orbit.
     progress : callable, optional
-        `progress(count, special)` after each orbit and special point.
+        `progress(count, found)` after each orbit; `found.kind` is that of a special one, empty at others.
     **options
         `mesh`, `degree`, `scheme`, `tol`, `mesh_max`, `period_max`, and fields of `Settings` (ds, ds_max, ...).
 
@@ -112,7 +114,7 @@ def from_orbit(
     system, entries, origin = entries_at(flow, point, free)
     if all(e.row is None for e in entries):
         entries = [e for e in entries if e.direction in check_direction(direction)]
-    return run(RESPONSES if flow.forced else CYCLES, system, entries, read, origin, stop, progress)
+    return run(flow.curve, system, entries, read, origin, stop, progress)
 
 
 def _from_hopf(
@@ -162,6 +164,7 @@ def _from_motion(
 
 
 @np.errstate(all="ignore")
+@checked
 def find_cycle(
     problem: Model, start: Start | None = None, *, keyframe: str | None = None, state: Any = None, **options: Any
 ) -> Orbit:

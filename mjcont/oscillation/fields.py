@@ -92,8 +92,7 @@ class FieldFlow(ModelFlow):
         """Return f at states (m, n) and phases (m,), shape (m, n)."""
         times = phases * self.period(values) if self.forced else np.zeros(len(states))
         rows = self._rows(phases, values)
-        found = [self.field.rate(u, p, t) for u, p, t in zip(states, rows, times.tolist(), strict=True)]
-        return np.array(found).reshape(len(states), self.c)
+        return self.field.rates(states, rows, times.tolist())
 
     def derivatives(
         self, states: Array, phases: Array, values: Values, wrt: Sequence[str], accurate: bool, ranges: Ranges = ()

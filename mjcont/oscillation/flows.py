@@ -13,7 +13,7 @@ from mjcont.numerics.orbits.flow import Flow
 from mjcont.numerics.orbits.path import Path
 from mjcont.oscillation.forced import FREQUENCY, Forcing, forcing_parameter, split
 from mjcont.results.model import Model
-from mjcont.results.orbits import Chart, Reading
+from mjcont.results.orbits import CYCLES, RESPONSES, Chart, Reading
 from mjcont.results.quantities import Parameter
 
 # speed, relative to what a state's own size would bring about, that counts as none
@@ -40,6 +40,11 @@ class ModelFlow(Flow):
         """Return the same motion in coordinates about a state of the model (nq,), or one with velocities."""
         del state
         return self
+
+    @property
+    def curve(self) -> str:
+        """What a curve of its orbits is called."""
+        return RESPONSES if self.forced else CYCLES
 
     @abstractmethod
     def measured(self, states: Array, phases: Array, values: Values) -> Array:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves import loci
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction
@@ -23,12 +24,12 @@ from mjcont.oscillation.walks import Entry, Special, read_options, run
 from mjcont.results.branch import Branch
 from mjcont.results.orbits import CycleBranch, SpecialOrbit
 from mjcont.results.points import SpecialPoint
-from mjcont.results.text import check_kind
 
 FOLLOWED = ("LPC", "PD", "NS")
 Bounds = tuple[float, float] | Mapping[str, tuple[float, float]] | None
 
 
+@checked
 def continue_special(
     point: SpecialPoint,
     parameter: str,
@@ -74,7 +75,6 @@ def continue_special(
         if zeros:
             raise MjcontError("zeros= are not located along curves of orbits")
         return _of_orbits(point, parameter, bounds, direction, end_at, progress, options)
-    check_kind("a point to be followed", point, SpecialPoint, 'take one of a branch: branch.point("LP1")')
     return loci.continue_special(
         point, parameter, bounds, direction=direction, end_at=end_at, zeros=zeros, lyapunov=lyapunov,
         progress=progress, **options,

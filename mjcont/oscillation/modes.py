@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import sparse
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array, Pencil
 from mjcont.numerics.spectra.spectrum import DIFFERENCE_NOISE, spectrum
@@ -39,6 +40,7 @@ def linearized(point: Point, wrt: Sequence[str] = ()) -> tuple[Pencil, Array]:
 
 
 @np.errstate(all="ignore")
+@checked
 def modes(point: Point) -> Modes:
     """Return frequencies, damping ratios and shapes of the modes at an equilibrium, stable or not.
 

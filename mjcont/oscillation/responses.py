@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction, start_from
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
@@ -15,25 +16,31 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.follow import laid, orbit_near
+from mjcont.numerics.orbits.path import Path
 from mjcont.numerics.orbits.points import path_at
 from mjcont.oscillation.cycles import from_orbit
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import FREQUENCY, Harmonic, check_forcing, check_inputs, make_forcing
-from mjcont.oscillation.starts import response_path
+from mjcont.oscillation.onward import flow_at, orbit_at
+from mjcont.oscillation.starts import response_path, sampled_path
 from mjcont.oscillation.walks import Entry, Options, Stop, flow_of, read_options, run
 from mjcont.results.model import Model, check_bounds
 from mjcont.results.orbits import RESPONSES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point, show
 from mjcont.vectorfield import VectorField
 
+AnyOrbit = OrbitPoint | SpecialOrbit | Orbit
+Start = Mapping[str, float] | Point | AnyOrbit
+
 
 @np.errstate(all="ignore")
+@checked
 def continue_response(
-    problem: Model | OrbitPoint | SpecialOrbit | Orbit,
+    problem: Model | AnyOrbit,
     parameter: str | None = None,
     bounds: tuple[float, float] | None = None,
     forcing: Mapping[str, Harmonic] | None = None,
-    start: Mapping[str, float] | Point | None = None,
+    start: Start | None = None,
     *,
     frequency: float | None = None,
     keyframe: str | None = None,
@@ -57,8 +64,9 @@ def continue_response(
         Its range; default the parameter's own.
     forcing : mapping of parameter to Harmonic
         What moves in time, unless the field has a period.
-    start : dict of parameter values, or a point of any result
-        Other parameters keep the model's values.
+    start : dict of parameter values, a point of any result, or an orbit
+        Other parameters keep the model's values. Near an orbit the first motion is looked for: one of another model
+        with as many coordinates, of another forcing, or on another curve.
     frequency : float, optional
         Of the forcing, in Hz; default where the bounds begin if it is the parameter that varies.
     keyframe, state : optional
@@ -71,7 +79,7 @@ def continue_response(
     MjcontError, NameLookupError, BoundsError, ParameterError, StartError
         See their messages.
     """
-    if isinstance(problem, OrbitPoint | SpecialOrbit | Orbit):
+    if isinstance(problem, AnyOrbit):
         if any(given is not None for given in (forcing, start, frequency, keyframe, state)):
             raise MjcontError("an orbit has its forcing and is its own start: give the parameter and bounds alone")
         return from_orbit(problem, parameter, bounds, direction, stop, progress, options)
@@ -81,11 +89,25 @@ def continue_response(
     read = read_options(flow, options)
     low, high = _range(flow, parameter, bounds, values)
     unit = flow.parameter(parameter).unit
-    x, _ = start_from(problem, None, keyframe, start.state if isinstance(start, Point) and state is None else state)
-    orbits, x = _first(flow.about(x), x, values, read)
+    if isinstance(start, AnyOrbit):
+        flow = flow.about(orbit_at(start).states[0])
+        path, shift = _like(start, flow, values, read)
+    else:
+        at = start.state if isinstance(start, Point) and state is None else state
+        x, _ = start_from(problem, None, keyframe, at)
+        flow = flow.about(x)
+        path, shift = response_path(flow, x, values, read.meshes), np.zeros(flow.d)
+    orbits, x = _first(flow, path, shift, values, read)
     system = System(orbits, values, [Free(parameter, low, high, unit)])
     entries = [Entry(sign, x, system.start_y(), None) for sign in check_direction(direction)]
     return run(RESPONSES, system, entries, read, "the motion settled from its start", stop, progress)
+
+
+def _values_of(start: Start | None) -> Mapping[str, float]:
+    """Return the parameter values that a start has."""
+    if isinstance(start, AnyOrbit):
+        return orbit_at(start).parameters
+    return start.parameters if isinstance(start, Point) else start or {}
 
 
 def _range(
@@ -111,16 +133,35 @@ def _range(
     return low, high
 
 
-def _first(flow: ModelFlow, x: Array, values: dict[str, float], read: Options) -> tuple[Orbits, Array]:
-    """Return the response near a state, with the equations on its mesh.
+def _like(start: AnyOrbit, flow: ModelFlow, values: dict[str, float], read: Options) -> tuple[Path, Array]:
+    """Return an orbit as a motion of another flow, and what it gains in a period.
+
+    Raises
+    ------
+    MjcontError
+        If it has another number of coordinates.
+    """
+    orbit = orbit_at(start)
+    if orbit.path.s.shape[1] != flow.d:
+        raise MjcontError(f"the orbit given as start has states of {orbit.path.s.shape[1]} numbers, {flow.model.name} "
+                          f"moves in {flow.d}")
+    own, meshes = flow_at(orbit), read.meshes
+    states = flow.taken(orbit.path, own).states if own.chart is not None else orbit.path.states
+    path = sampled_path(flow, meshes.scheme, max(meshes.first, len(orbit.path.w)), states, flow.period(values), values)
+    return path, orbit.shift if len(orbit.shift) else np.zeros(flow.d)
+
+
+def _first(
+    flow: ModelFlow, path: Path, shift: Array, values: dict[str, float], read: Options
+) -> tuple[Orbits, Array]:
+    """Return the response near a path, which gains a shift in a period, with the equations on its mesh.
 
     Raises
     ------
     StartError
         If there is none.
     """
-    shift = np.zeros(flow.d)
-    point = orbit_near(flow, response_path(flow, x, values, read.meshes), values, shift, read.meshes)
+    point = orbit_near(flow, path, values, shift, read.meshes)
     if point is None:
         why = f": {flow.touches}" if flow.touches else ""
         raise StartError(f"no periodic response found at the start{why}; give state=, or begin at a smaller amplitude")
@@ -134,11 +175,11 @@ def _driven(
     parameter: str,
     bounds: tuple[float, float] | None,
     forcing: Mapping[str, Harmonic] | None,
-    start: Mapping[str, float] | Point | None,
+    start: Start | None,
     frequency: float | None,
 ) -> tuple[ModelFlow, dict[str, float]]:
     """Return the motion under its forcing, and the start's parameter values."""
-    given = dict(start.parameters if isinstance(start, Point) else start or {})
+    given = dict(_values_of(start))
     if isinstance(problem, VectorField) and problem.period is not None:
         if forcing is not None or frequency is not None:
             raise ParameterError(f"{problem.name} has a period of its own: forcing= and frequency= say it twice")
@@ -152,5 +193,5 @@ def _driven(
     if frequency is None:
         raise ParameterError("frequency= of the forcing is needed, in Hz")
     flow = flow_of(problem, make_forcing(problem, inputs, frequency))
-    known = {k: v for k, v in given.items() if not isinstance(start, Point) or k in flow.values() or ":" in k}
+    known = {k: v for k, v in given.items() if isinstance(start, Mapping) or k in flow.values() or ":" in k}
     return flow, flow.values({**known, FREQUENCY: frequency})

@@ -12,6 +12,7 @@ from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.starts import find_start
 from mjcont.numerics.orbits.collocation import Orbits
+from mjcont.numerics.orbits.conserved import orbits_on
 from mjcont.numerics.orbits.flow import Flow
 from mjcont.numerics.orbits.follow import MeshSettings, orbit_near
 from mjcont.numerics.orbits.mesh import first_mesh
@@ -41,7 +42,7 @@ def harmonic_orbit(
     sizes = flow.scale.copy()
     if flow.order == 2:
         sizes[flow.c :] = np.maximum(sizes[flow.c :], sizes[: flow.c] * omega)
-    orbits = Orbits(flow, scheme, mesh, slopes, np.zeros(flow.d), sizes, period)
+    orbits = orbits_on(flow, scheme, mesh, slopes, np.zeros(flow.d), sizes, period)
     inside = np.exp(2j * np.pi * orbits.phases)[:, None]
     h = (period * orbits.lengths)[:, None, None] ** flow.order
     highest = (1j * omega) ** flow.order * direction[: flow.c]

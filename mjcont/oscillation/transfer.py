@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.mechanism.moving import has_activations
@@ -23,6 +24,7 @@ _COUNT, _BEYOND = 400, 4.0
 
 
 @np.errstate(all="ignore")
+@checked
 def transfer(
     point: Point,
     input: str,

@@ -21,6 +21,7 @@ from mjcont.numerics.step.arclength import CurvePoint, tangent_at
 from mjcont.numerics.walk.steps import End, Status
 from mjcont.numerics.walk.trace import Trace
 from mjcont.oscillation.collect import collect, flow_at, make_orbit, reporter, verdict
+from mjcont.oscillation.conserving import flow_as_recorded
 from mjcont.oscillation.fields import FieldFlow
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.forced import Forcing, Harmonic, make_forcing
@@ -97,6 +98,8 @@ def flow_of(problem: Model, forcing: Forcing | None = None, chart: Chart | None 
 
 def flow_for(model: Model, record: Mapping[str, Any], chart: Chart | None = None) -> ModelFlow:
     """Return the motion of a model under forcing as files keep it, in the coordinates of one of its orbits."""
+    if "conserves" in record:
+        return flow_as_recorded(flow_of(model, None, chart), record["conserves"])
     periods = int(record.get("periods", 1))
     if not record.get("inputs"):
         return FieldFlow(model, None, periods) if isinstance(model, VectorField) else flow_of(model, None, chart)
@@ -154,8 +157,9 @@ def run(
     progress: Progress | None = None,
     notes: Sequence[str] = (),
     special: Special | None = None,
+    periods: int = 1,
 ) -> CycleBranch:
-    """Walk from each entry and collect the curve; `special` where it is one of special orbits."""
+    """Walk from each entry and collect the curve; `special` where it is one of special orbits, `periods` of several."""
     traces: list[Trace] = []
     report = reporter(progress)
     for entry in entries:
@@ -168,7 +172,7 @@ def run(
             if isinstance(first, Refused):
                 traces.append(Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}")))
                 continue
-            follower = Follower(options.settings, options.meshes, point_stop(stop))
+            follower = Follower(options.settings, options.meshes, point_stop(stop), periods=periods)
             if special is not None:
                 follower = replace(follower, detectors=special.detectors, held=special.held, end_at=special.end_at)
             traces.append(trace_orbits(follower, system, first, report))

@@ -26,6 +26,13 @@ _ATTEMPTS = 100
 _LOCKS = os.name == "posix"  # elsewhere private files of killed processes stay
 
 
+def checked_path(path: str | Path) -> Path:
+    """Return a path; MjcontError if it is none."""
+    if not isinstance(path, str | os.PathLike):
+        raise MjcontError(f'a path is a string such as "out/branch.h5" or a Path, got a {type(path).__name__}')
+    return Path(path)
+
+
 def write_file(path: str | Path, content: bytes | str) -> Path:
     """Write a file whole or not at all, and return its path; text is written as UTF-8.
 
@@ -34,7 +41,7 @@ def write_file(path: str | Path, content: bytes | str) -> Path:
     MjcontError
         One sentence that names the file: a full or read-only disk, a quota, a folder that is not there, ...
     """
-    path = Path(path)
+    path = checked_path(path)
     data = content.encode(errors="backslashreplace") if isinstance(content, str) else content
     try:
         if _through(path):

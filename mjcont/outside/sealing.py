@@ -23,6 +23,7 @@ from collections.abc import Callable
 from typing import Any
 
 import h5py
+import numpy as np
 
 _LINE = re.compile(rb"\nmjcont seal 1 ([0-9a-f]{64}) (\d{20})\n\Z")
 _LINE_LENGTH = 101
@@ -45,7 +46,7 @@ def sealed_file(fill: Callable[[h5py.File], None]) -> bytes:
     """Return the bytes of a file that `fill` puts groups and datasets into."""
     with h5py.File("image", "w", driver="core", backing_store=False) as f:
         fill(f)
-        f.attrs[_SEALED] = "the file ends with a line 'mjcont seal 1 DIGEST LENGTH'"
+        f.attrs[_SEALED] = np.bytes_("the file ends with a line 'mjcont seal 1 DIGEST LENGTH'")
         f.flush()
         places = _places(f)
         image = f.id.get_file_image()

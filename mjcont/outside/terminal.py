@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
 import sys
 from contextlib import suppress
 from typing import TextIO
@@ -50,7 +51,8 @@ class Live:
         if self._stream is None:
             return
         try:
-            self._stream.write(f"\r\x1b[K{for_terminal(text)}")
+            width = shutil.get_terminal_size().columns - 1  # a line that wraps is not wiped
+            self._stream.write(f"\r\x1b[K{for_terminal(text)[:width]}")
             self._stream.flush()
         except OSError:
             self._stream = None

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from mjcont.errors import unknown_name
 from mjcont.paper.findings import stem
-from mjcont.paper.reproduce import ReproduceResult, available, draw
+from mjcont.paper.reproduce import Progress, ReproduceResult, available, draw
 
 # Name of the script and what it does, in the order of the report.
 STUDIES: Mapping[str, str] = {
@@ -32,6 +32,7 @@ def report(
     jobs: int | None = None,
     force: bool = False,
     say: Callable[[str], None] = print,
+    progress: Progress | None = None,
 ) -> ReproduceResult:
     """Write `report.html` and `report.md` on the paper's figures and, if `extended`, on the studies beyond it.
 
@@ -43,7 +44,7 @@ def report(
         Run the studies of `STUDIES` too.
     only : str, optional
         Run this figure or study alone, such as "fig03" or "unlocking"; the report covers what else is up to date.
-    jobs, force, say : see `reproduce`
+    jobs, force, say, progress : see `reproduce`
 
     Raises
     ------
@@ -58,4 +59,4 @@ def report(
         raise unknown_name("figure or study", only, names)
     chosen = [names[only]] if only is not None else everything if extended else list(available())
     covered = everything if extended or only in STUDIES else list(available())
-    return draw(chosen, covered, out, jobs=jobs, force=force, say=say)
+    return draw(chosen, covered, out, jobs=jobs, force=force, say=say, progress=progress)

@@ -39,6 +39,7 @@ from mjcont.paper.findings import FigureResult, Finding, label_of, stem
 from mjcont.paper.report import as_html, headline, markdown, verdict
 from mjcont.results.branch import Branch
 
+Progress = Callable[[Sequence[str], int, int], None]
 _SCRIPT = re.compile(r"fig(\d\d)\.py")
 # figures that take longest are started first, so that no processor waits for one of them at the end
 _LONGEST = (15, 11, 8, 9, 2, 12, 14)
@@ -113,6 +114,7 @@ def reproduce(
     jobs: int | None = None,
     force: bool = False,
     say: Callable[[str], None] = print,
+    progress: Progress | None = None,
 ) -> ReproduceResult:
     """Draw figures of the paper and write `report.html` and `report.md` on their findings into a folder.
 
@@ -129,6 +131,8 @@ def reproduce(
         Draw figures again that are up to date.
     say : callable
         Takes a line on each figure.
+    progress : callable, optional
+        `progress(running, done, all)` whenever a figure begins or ends; `running` are those being drawn.
 
     Raises
     ------
@@ -136,7 +140,7 @@ def reproduce(
         If a number is unknown (the message lists those there are) or the folder cannot be made. A figure that
         fails is no exception: see `ReproduceResult.failed`.
     """
-    return draw(_chosen(figures), available(), out, jobs=jobs, force=force, say=say)
+    return draw(_chosen(figures), available(), out, jobs=jobs, force=force, say=say, progress=progress)
 
 
 def draw(
@@ -147,6 +151,7 @@ def draw(
     jobs: int | None = None,
     force: bool = False,
     say: Callable[[str], None] = print,
+    progress: Progress | None = None,
 ) -> ReproduceResult:
     """Draw figures and studies, and write the report on those `covered` that are up to date; see `reproduce`."""
     out = Path(out)
@@ -163,7 +168,7 @@ def draw(
     for n in [n for n in chosen if n not in todo]:
         say(f"{results[n]} (up to date)")
     try:
-        for result in _draw_all(todo, out, stamps, jobs or os.cpu_count() or 1):
+        for result in _draw_all(todo, out, stamps, jobs or os.cpu_count() or 1, progress):
             results[result.figure] = result
             say(str(result))
     finally:
@@ -186,7 +191,9 @@ def _chosen(figures: Sequence[int] | None) -> list[int]:
     return chosen
 
 
-def _draw_all(todo: Sequence[int | str], out: Path, stamps: dict[int | str, str], jobs: int) -> Iterator[FigureResult]:
+def _draw_all(
+    todo: Sequence[int | str], out: Path, stamps: dict[int | str, str], jobs: int, progress: Progress | None
+) -> Iterator[FigureResult]:
     """Draw figures in processes of their own, so that one that crashes harms no other; yield each as it ends."""
     context = multiprocessing.get_context("spawn")
     waiting = sorted(todo, key=lambda n: _LONGEST.index(n) if n in _LONGEST else len(_LONGEST))
@@ -199,6 +206,8 @@ def _draw_all(todo: Sequence[int | str], out: Path, stamps: dict[int | str, str]
                 with held(), starting():
                     process.start()
                     running[process.sentinel] = (n, process)
+            if progress is not None:
+                progress([label_of(n) for n, _ in running.values()], len(todo) - len(waiting) - len(running), len(todo))
             for sentinel in connection.wait(list(running)):
                 n, process = running.pop(sentinel)
                 process.join()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,10 +10,11 @@ import numpy as np
 
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.points import Point, show
+from mjcont.results.text import Cells, Shown, Tabular, to_xarray
 
 
-@dataclass(frozen=True, slots=True)
-class Barrier:
+@dataclass(frozen=True, slots=True, repr=False)
+class Barrier(Shown):
     """The energy barrier that guards a rest.
 
     Attributes
@@ -39,8 +40,8 @@ class Barrier:
         return f"energy barrier {self.energy:.6g} J{where}: {self.message}"
 
 
-@dataclass(frozen=True, slots=True)
-class BarrierCurve:
+@dataclass(frozen=True, slots=True, repr=False)
+class BarrierCurve(Tabular, Shown):
     """Energy barriers along the stable part of a branch.
 
     Attributes
@@ -49,6 +50,7 @@ class BarrierCurve:
     values, energy : (m,) its values, and the barriers in J, in order along the branch.
     rows : (m,) rows of the branch that they belong to: stable ones some way apart, and the folds.
     barriers : one a value.
+    pieces : (m,) number of the piece of the branch, stable throughout, that each belongs to.
     """
 
     name: str
@@ -57,12 +59,19 @@ class BarrierCurve:
     energy: Array
     rows: Array
     barriers: Sequence[Barrier] = field(repr=False)
+    pieces: Array = field(repr=False)
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the barrier against the parameter and return the axes."""
         from mjcont.drawing.barriers import draw_barriers
 
         return draw_barriers(self, ax)
+
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        yield "row", "", self.rows
+        yield self.name, self.unit, self.values
+        yield "energy", "J", self.energy
+        yield "message", "", [b.message for b in self.barriers]
 
     def __str__(self) -> str:
         """Return the range of the parameter and of the barrier."""
@@ -72,8 +81,8 @@ class BarrierCurve:
         return f"energy barrier, {self.name} = {span} ({len(self.values)} rests): {levels}"
 
 
-@dataclass(frozen=True, slots=True)
-class BarrierMap:
+@dataclass(frozen=True, slots=True, repr=False)
+class BarrierMap(Tabular, Shown):
     """Energy barriers over a grid of two parameters.
 
     Attributes
@@ -94,6 +103,22 @@ class BarrierMap:
         from mjcont.drawing.barriers import draw_map
 
         return draw_map(self, ax, levels)
+
+    def to_xarray(self) -> Any:
+        """Return the grid as an xarray Dataset, SI and radians, units in `attrs`.
+
+        Raises
+        ------
+        MjcontError
+            If xarray is not installed.
+        """
+        (x, y), (unit_x, unit_y) = self.names, self.units
+        return to_xarray({y: (unit_y, self.y), x: (unit_x, self.x)}, {"energy": ("J", self.energy)})
+
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        for name, unit, grid in zip(self.names, self.units, np.meshgrid(self.x, self.y), strict=True):
+            yield name, unit, grid.ravel()
+        yield "energy", "J", self.energy.ravel()
 
     def __str__(self) -> str:
         """Return the grid and the range of the barrier."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -11,6 +11,7 @@ from typing import Any, overload
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, NameLookupError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.certificates import Certificate
@@ -18,11 +19,11 @@ from mjcont.results.model import Model, model_of
 from mjcont.results.points import Column, Mark, Point, SpecialPoint, show
 from mjcont.results.quantities import column_of
 from mjcont.results.spectra import Spectra
-from mjcont.results.text import Shown
+from mjcont.results.text import Cells, Shown, Tabular
 
 
 @dataclass(frozen=True, repr=False)
-class Branch(Shown):
+class Branch(Tabular, Shown):
     """A curve of equilibria, or a locus of special points.
 
     Attributes
@@ -87,9 +88,7 @@ class Branch(Shown):
     def __getitem__(self, name: Any) -> Any:
         """Return a column, SI and radians, (N,); for a whole number that row, a Point."""
         if isinstance(name, int | np.integer):
-            if not -len(self) <= name < len(self):
-                raise NameLookupError(f"row {name} of {len(self)}: rows are 0 to {len(self) - 1}, or -1 for the last")
-            return self.row(int(name) % len(self))
+            return self.row(int(name))
         if not isinstance(name, str):
             raise NameLookupError(f"a branch has columns by name and rows by whole numbers, got {name!r}")
         if (own := column_of(name, self.columns)) is not None:
@@ -147,10 +146,12 @@ class Branch(Shown):
         """Whether the stability of rows says something: along curves of equilibria and of orbits, not along loci."""
         return not self.kind.endswith("locus")
 
+    @checked
     def of_kind(self, kind: str) -> list[SpecialPoint]:
         """Return the special points of one kind, in order along the branch."""
         return [p for p in self.special_points if p.kind == kind]
 
+    @checked
     def point(self, label: str) -> SpecialPoint:
         """Return the special point with a label such as "LP1"."""
         for p in self.special_points:
@@ -158,8 +159,18 @@ class Branch(Shown):
                 return p
         raise unknown_name("special point", label, [p.label for p in self.special_points])
 
+    @checked
     def row(self, index: int) -> Point:
-        """Return a point of the branch by its row, its eigenvalues computed if they are not known."""
+        """Return a point of the branch by its row (-1 is the last), its eigenvalues computed if they are not known.
+
+        Raises
+        ------
+        NameLookupError
+            If there is no such row.
+        """
+        if not -len(self) <= index < len(self):
+            raise NameLookupError(f"row {index} of {len(self)}: rows are 0 to {len(self) - 1}, or -1 for the last")
+        index %= len(self)
         return Point(
             self.parameters_at(index),
             {c.name: float(c.values[index]) for c in self.columns.values() if c.role == "observable"},
@@ -181,6 +192,7 @@ class Branch(Shown):
         free = {n: float(self.columns[n].values[index]) for n in self.free}
         return {**self.fixed, **free}
 
+    @checked
     def at(self, **target: float) -> list[Point]:
         """Return the points of the branch at which one column has a value, corrected to it (there may be several).
 
@@ -189,19 +201,25 @@ class Branch(Shown):
         MjcontError
             If not exactly one column is given, or the branch was loaded without its problem.
         """
-        from mjcont.curves.continuation import points_at
+        from mjcont.curves.at import points_at
 
         if len(target) != 1:
             raise MjcontError("Branch.at takes exactly one column and value, such as at(F=20.0)")
         ((name, value),) = target.items()
         return points_at(self, name, value)
 
+    @property
+    def axes(self) -> tuple[str, str]:
+        """The columns that a picture shows unless told otherwise: the parameter, and an observable."""
+        (name, *_), observables = self.free, (n for n, c in self.columns.items() if c.role == "observable")
+        return name, next(observables, name)
+
+    @checked
     def plot(self, x: str = "", y: str = "", **options: Any) -> Any:
         """Draw the branch and return the axes; by default an observable over the parameter. `options` as for `plot`."""
         from mjcont.drawing.plotting import plot
 
-        first = next((n for n, c in self.columns.items() if c.role == "observable"), next(iter(self.free)))
-        return plot(self, x=x or next(iter(self.free)), y=y or first, **options)
+        return plot(self, x=x, y=y, **options)
 
     def save(self, path: str | Path) -> Path:
         """Write the branch to an HDF5 file (replacing it whole or not at all) and return the path.
@@ -214,20 +232,11 @@ class Branch(Shown):
 
         return save(self, path)
 
-    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
-        """Write the columns as CSV with units in the header, angles in degrees unless told otherwise."""
-        from mjcont.results.branchfiles import write_csv
-
-        return write_csv(self, path, degrees=degrees)
-
-    def to_dataframe(self) -> Any:
-        """Return a pandas DataFrame of the columns (SI and radians), stability and labels."""
-        try:
-            import pandas as pd
-        except ImportError as error:
-            raise MjcontError("to_dataframe needs pandas: pip install 'mjcont[notebook]'") from error
-        data = {c.name: c.values for c in self.columns.values()}
-        return pd.DataFrame({**data, "stability": self.stability, "n_unstable": self.n_unstable, "label": self.labels})
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        yield from ((c.name, c.unit, c.values) for c in self.columns.values())
+        yield "stability", "", self.stability
+        yield "unstable eigenvalues", "", self.n_unstable
+        yield "label", "", self.labels
 
     @property
     def labels(self) -> list[str]:
@@ -300,19 +309,19 @@ class Diagram(Shown):
         """Iterate over the branches."""
         return iter(self.branches)
 
+    @checked
     def __getitem__(self, index: int) -> Branch:
         """Return a branch."""
         return self.branches[index]
 
+    @checked
     def plot(self, x: str = "", y: str = "", **options: Any) -> Any:
         """Draw all branches and return the axes; by default an observable over the parameter."""
         from mjcont.drawing.plotting import plot
 
         if not self.branches:
             raise MjcontError("the diagram has no branches to draw")
-        first = self.branches[0]
-        shown = next((n for n, c in first.columns.items() if c.role == "observable"), next(iter(first.free)))
-        return plot(*self.branches, x=x or next(iter(first.free)), y=y or shown, **options)
+        return plot(*self.branches, x=x, y=y, **options)
 
     @property
     def special_points(self) -> list[SpecialPoint]:

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
 
 from mjcont.results.points import show
+from mjcont.results.text import Cells, Shown, Tabular
 
 CONFIRMED, CONTRADICTED, UNRESOLVED = "confirmed", "contradicted", "unresolved"
 
@@ -39,8 +43,8 @@ class Check:
     sentence: str
 
 
-@dataclass(frozen=True, slots=True)
-class Certificate:
+@dataclass(frozen=True, slots=True, repr=False)
+class Certificate(Tabular, Shown):
     """What the dynamic check of a branch found.
 
     Attributes
@@ -92,6 +96,24 @@ class Certificate:
             name = f"row {c.index}" + (f" ({c.label})" if c.label else "")
             lines.append(f"  {name}, {place}: {c.stability}, {c.verdict}: {c.sentence}")
         return "\n".join(lines)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw rates of simulated motions beside those of the eigenvalues and return the axes."""
+        from mjcont.drawing.charts import draw_certificate
+
+        return draw_certificate(self, ax)
+
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        yield "row", "", [c.index for c in self]
+        yield "label", "", [c.label for c in self]
+        yield from ((n, unit, np.array([c.parameters[n] for c in self])) for n, unit in self.units.items())
+        yield "stability", "", [c.stability for c in self]
+        yield "Re s", "1/s", [c.eigenvalue.real for c in self]
+        yield "Im s", "1/s", [c.eigenvalue.imag for c in self]
+        yield "rate", "1/s", [float(c.rate) for c in self]
+        yield "time", "s", [float(c.time) for c in self]
+        yield "verdict", "", [c.verdict for c in self]
+        yield "sentence", "", [c.sentence for c in self]
 
     def to_json(self) -> str:
         """Return the certificate as JSON."""

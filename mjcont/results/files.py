@@ -1,6 +1,6 @@
-"""What all result files share: a header, columns, the model, a seal; CSV. Nothing read from a file is executed.
+"""What all result files share: a header, columns, the model, a seal. Nothing read from a file is executed.
 
-Every HDF5 file begins with (format version 2; behind it stands the seal of `outside/sealing.py`)::
+Every HDF5 file begins with (format version 3; behind it stands the seal of `outside/sealing.py`)::
 
     /                     attributes: format "mjcont", format_version, kind, name, provenance_..., declared (JSON:
                           parameters by path; of a Python function only the name)
@@ -8,16 +8,17 @@ Every HDF5 file begins with (format version 2; behind it stands the seal of `out
     /columns/KEY          (N,) float64, attributes name, unit, role; their order is an attribute of /columns; KEY is the
                           name as `outside/hdf5names.py` writes it
 
-The rest is written beside each result: `branchfiles`, `loadpaths`, `histories`, `sweeps`; `formats` reads them all. In
-version 1 names stood for themselves, as paths, and nothing was sealed.
+Texts are of fixed length (`outside/hdf5text.py`), complex arrays are two real ones: any program that reads HDF5 reads
+all of it. The rest is written beside each result: `branchfiles`, `loadpaths`, `histories`, `sweeps`; `formats` reads
+them all. In version 2 texts were of variable length, in version 1 names stood for themselves, as paths, and nothing was
+sealed.
 """
 
 from __future__ import annotations
 
 import json
-import math
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -25,14 +26,14 @@ import h5py
 import numpy as np
 
 from mjcont.errors import ModelWarning
-from mjcont.outside.csvfiles import write_table
 from mjcont.outside.hdf5names import key
+from mjcont.outside.hdf5text import Attributes, read_text, write_text
 from mjcont.outside.saving import write_file
 from mjcont.outside.sealing import sealed_file
 from mjcont.results.model import Model
 from mjcont.results.points import Column
 
-FORMAT_VERSION = 2
+FORMAT_VERSION = 3
 
 
 class Unfit(Exception):
@@ -46,12 +47,16 @@ def save_hdf5(path: str | Path, fill: Callable[[h5py.File], None]) -> Path:
 
 def write_common(f: h5py.Group, result: Any, *, model: bool = True) -> None:
     """Write what every result has: its columns, where it comes from, its model unless the file has that elsewhere."""
-    f.attrs.update({f"provenance_{k}": v for k, v in result.provenance.items()})
-    problem: Model | None = result.problem
-    if problem is not None and problem.mjcf is not None and model:
-        f["model"] = problem.mjcf
-    f.attrs["declared"] = json.dumps(dict(problem.declared) if problem is not None else {})
+    Attributes(f).update({f"provenance_{k}": v for k, v in result.provenance.items()})
+    write_model(f, result.problem, text=model)
     write_columns(f, result.columns)
+
+
+def write_model(f: h5py.Group, problem: Model | None, *, text: bool = True) -> None:
+    """Write the model's text, if it has one, and what was declared in Python."""
+    if problem is not None and problem.mjcf is not None and text:
+        write_text(f, "model", problem.mjcf)
+    Attributes(f)["declared"] = json.dumps(dict(problem.declared) if problem is not None else {})
 
 
 def write_columns(f: h5py.Group, columns: Mapping[str, Column]) -> None:
@@ -59,20 +64,20 @@ def write_columns(f: h5py.Group, columns: Mapping[str, Column]) -> None:
     group = f.create_group("columns")
     for name, c in columns.items():
         dataset = group.create_dataset(key(name), data=c.values, track_order=True)
-        dataset.attrs.update(name=json.dumps(name), unit=c.unit, role=c.role)
-    group.attrs.update(order=json.dumps(list(columns)), keys=json.dumps([key(name) for name in columns]))
+        Attributes(dataset).update(name=json.dumps(name), unit=c.unit, role=c.role)
+    Attributes(group).update(order=json.dumps(list(columns)), keys=json.dumps([key(name) for name in columns]))
 
 
 def write_values(f: h5py.Group, name: str, values: Mapping[str, float]) -> None:
     """Write numbers by any names, as attributes of a group."""
-    f.create_group(name).attrs.update({key(n): v for n, v in values.items()})
-    f.attrs[f"{name}_keys"] = json.dumps({key(n): n for n in values})
+    Attributes(f.create_group(name)).update({key(n): v for n, v in values.items()})
+    Attributes(f)[f"{name}_keys"] = json.dumps({key(n): n for n in values})
 
 
 def read_values(f: h5py.Group, name: str) -> dict[str, float]:
     """Return what `write_values` wrote."""
-    names = json.loads(f.attrs.get(f"{name}_keys", "{}"))
-    return {names.get(k, k): float(v) for k, v in f[name].attrs.items()}
+    names = json.loads(Attributes(f).get(f"{name}_keys", "{}"))
+    return {names.get(k, k): float(v) for k, v in Attributes(f[name]).beginning("").items()}
 
 
 def read_problem(f: h5py.File, problem: Model | None) -> Model | None:
@@ -83,8 +88,8 @@ def read_problem(f: h5py.File, problem: Model | None) -> Model | None:
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ModelWarning)  # said when the result was computed
-        mechanism = Mechanism.from_xml(f["model"].asstr()[()])
-    declared = json.loads(f.attrs["declared"])
+        mechanism = Mechanism.from_xml(read_text(f["model"]))
+    declared = json.loads(Attributes(f)["declared"])
     for name, given in declared.items():
         if "function" in given:
             raise Unfit(
@@ -99,35 +104,26 @@ def read_columns(f: h5py.Group) -> dict[str, Column]:
     """Return the columns in their order."""
     found = {}
     group = f["columns"]
-    names = json.loads(group.attrs["order"])
-    stored = json.loads(group.attrs["keys"]) if "keys" in group.attrs else names
+    names = json.loads(Attributes(group)["order"])
+    stored = json.loads(Attributes(group)["keys"]) if "keys" in Attributes(group) else names
     for name, place in zip(names, stored, strict=True):
         d = group[place]
-        found[name] = Column(name, d.attrs["unit"], d.attrs["role"], frozen(d[()]))
+        found[name] = Column(name, Attributes(d)["unit"], Attributes(d)["role"], frozen(d[()]))
     return found
+
+
+def write_complex(f: h5py.Group, name: str, values: np.ndarray) -> None:
+    """Write a complex array as two real ones."""
+    f[f"{name}/real"], f[f"{name}/imag"] = values.real, values.imag
+
+
+def read_complex(f: h5py.Group) -> np.ndarray:
+    """Return what `write_complex` wrote."""
+    found: np.ndarray = f["real"][()] + 1j * f["imag"][()]
+    return frozen(found)
 
 
 def frozen(array: np.ndarray) -> np.ndarray:
     """Return an array made read-only."""
     array.flags.writeable = False
     return array
-
-
-def csv_columns(
-    columns: Mapping[str, Column],
-    path: str | Path,
-    more: Sequence[str] = (),
-    extra: Sequence[Sequence[Any]] = (),
-    *,
-    degrees: bool = True,
-) -> Path:
-    """Write columns as CSV, with further cells `extra` under the headings `more`."""
-    units = {c.name: c.unit for c in columns.values()}
-    turn = [degrees and u == "rad" for u in units.values()]
-    header = [f"{n} [{'deg' if t else u}]" if u else n for (n, u), t in zip(units.items(), turn, strict=True)]
-    rows = np.column_stack([c.values for c in columns.values()])
-    rows[:, turn] = np.degrees(rows[:, turn])
-
-    body = ([*(v if math.isfinite(v) else "" for v in row), *(extra[i] if extra else ())]
-            for i, row in enumerate(rows.tolist()))
-    return write_table(path, [*header, *more], body)

@@ -9,30 +9,43 @@ from typing import Any
 
 import h5py
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, ResultFileError, ResultWarning
+from mjcont.outside.hdf5text import Attributes
 from mjcont.outside.sealing import Damaged, opened, refuse_broken_seal
 from mjcont.results import histories, loadpaths, sweeps
+from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch
 from mjcont.results.files import FORMAT_VERSION, Unfit, read_problem
+from mjcont.results.histories import History
+from mjcont.results.linear import Modes, Transfer
+from mjcont.results.linear import files as linear
+from mjcont.results.loadpaths import LoadPath
 from mjcont.results.model import Model
+from mjcont.results.orbits import CycleBranch
 from mjcont.results.orbits.files import GROUP, read_cycles
+from mjcont.results.sweeps import SweepTable
 
 # What h5py, json and our own reading raise on files with parts missing or overwritten.
 _DAMAGED = (
     LookupError, ValueError, TypeError, AttributeError, ArithmeticError, AssertionError, OSError, RuntimeError,
     MemoryError, MjcontError, Damaged,
 )
-Reader = Callable[[h5py.File, Any], Any]
+Result = Branch | CycleBranch | History | LoadPath | SweepTable | Modes | Transfer
+Reader = Callable[[h5py.File, Any], Result]
 # A branch states the kind of its curve instead: "equilibria", "LP locus", "cycles", ...
 READERS: Mapping[str, Reader] = {
     histories.KIND: histories.read,
     loadpaths.KIND: loadpaths.read,
     sweeps.KIND: sweeps.read,
+    linear.MODES: linear.read_modes,
+    linear.TRANSFER: linear.read_transfer,
 }
 
 
-def load(path: str | Path, problem: Model | None = None) -> Any:
-    """Read a result; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
+@checked
+def load(path: str | Path, problem: Model | None = None) -> Result:
+    """Read a result, whichever it is; a Mechanism is rebuilt from the MJCF in the file unless `problem` is given.
 
     Raises
     ------
@@ -67,13 +80,13 @@ def load(path: str | Path, problem: Model | None = None) -> Any:
     return found
 
 
-def _read(f: h5py.File, problem: Model | None, sealed: bool) -> Any:
-    if f.attrs.get("format") != "mjcont":
+def _read(f: h5py.File, problem: Model | None, sealed: bool) -> Result:
+    if Attributes(f).get("format") != "mjcont":
         raise Unfit(" was not written by mjcont")
-    version = int(f.attrs["format_version"])
+    version = int(Attributes(f)["format_version"])
     if version > FORMAT_VERSION:
         raise Unfit(f" has format version {version}; this mjcont reads up to {FORMAT_VERSION}: upgrade mjcont")
     if not sealed:
         refuse_broken_seal(f)
-    read: Reader = READERS.get(str(f.attrs["kind"]), read_cycles if GROUP in f else read_branch)
+    read: Reader = READERS.get(str(Attributes(f)["kind"]), read_cycles if GROUP in f else read_branch)
     return read(f, read_problem(f, problem))

@@ -1,6 +1,6 @@
 """Time histories, and their files.
 
-Layout of a file beside what `files` says (format version 2)::
+Layout of a file beside what `files` says (format version 3)::
 
     /               attributes: format, format_version, kind "history", name, status, message, settings (JSON), ...
     /model          the MJCF text (absent for a Mechanism made from a compiled model)
@@ -13,7 +13,7 @@ Layout of a file beside what `files` says (format version 2)::
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -23,9 +23,9 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
+from mjcont.outside.hdf5text import Attributes
 from mjcont.results.files import (
     FORMAT_VERSION,
-    csv_columns,
     frozen,
     read_columns,
     read_values,
@@ -36,12 +36,15 @@ from mjcont.results.files import (
 from mjcont.results.model import Model
 from mjcont.results.points import Column
 from mjcont.results.quantities import column_of
+from mjcont.results.text import Cells, Shown, Tabular, to_xarray
 
 KIND = "history"
+# columns that are drawn without being named
+_SHOWN = 4
 
 
-@dataclass(frozen=True, slots=True)
-class History:
+@dataclass(frozen=True, slots=True, repr=False)
+class History(Tabular, Shown):
     """A time history.
 
     Attributes
@@ -93,12 +96,25 @@ class History:
         """Units of all columns."""
         return {c.name: c.unit for c in self.columns.values()}
 
+    def plot(self, *columns: str) -> Any:
+        """Draw columns against time, one below the other, and return the figure; by default the first few observables.
+
+        Raises
+        ------
+        NameLookupError
+            If there is no such column.
+        """
+        from mjcont.drawing.charts import draw_history
+
+        own = [c.name for c in self.columns.values() if c.role == "observable"][:_SHOWN]
+        return draw_history(self, columns or own or [n for n in self.columns if n != "time"])
+
     def save(self, path: str | Path) -> Path:
         """Write the history to an HDF5 file (replacing it whole or not at all) and return the path."""
         return save_hdf5(path, self._write)
 
     def _write(self, f: h5py.File) -> None:
-        f.attrs.update(
+        Attributes(f).update(
             format="mjcont",
             format_version=FORMAT_VERSION,
             kind=KIND,
@@ -111,9 +127,19 @@ class History:
         f["states"], f["velocities"] = self.states, self.velocities
         write_values(f, "fixed", self.fixed)
 
-    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
-        """Write the columns as CSV with units in the header."""
-        return csv_columns(self.columns, path, degrees=degrees)
+    def to_xarray(self) -> Any:
+        """Return the columns over time as an xarray Dataset, SI and radians, units in `attrs`.
+
+        Raises
+        ------
+        MjcontError
+            If xarray is not installed.
+        """
+        columns = {c.name: (c.unit, c.values) for c in self.columns.values()}
+        return to_xarray({"time": columns.pop("time")}, columns)
+
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        return ((c.name, c.unit, c.values) for c in self.columns.values())
 
     def __str__(self) -> str:
         """Return a one-line summary."""
@@ -132,16 +158,15 @@ def read(f: h5py.File, problem: Model | None) -> History:
     states, velocities = frozen(f["states"][()]), frozen(f["velocities"][()])
     if {len(velocities)} | {len(c.values) for c in columns.values()} != {len(states)}:
         raise ValueError("its columns differ in length")
-    prefix = "provenance_"
     return History(
         columns=columns,
         states=states,
         velocities=velocities,
-        status=str(f.attrs["status"]),
-        message=str(f.attrs["message"]),
-        settings=json.loads(f.attrs["settings"]),
-        name=str(f.attrs["name"]),
+        status=str(Attributes(f)["status"]),
+        message=str(Attributes(f)["message"]),
+        settings=json.loads(Attributes(f)["settings"]),
+        name=str(Attributes(f)["name"]),
         problem=problem,
         fixed=read_values(f, "fixed") if "fixed" in f else {},
-        provenance={k.removeprefix(prefix): str(v) for k, v in f.attrs.items() if k.startswith(prefix)},
+        provenance=Attributes(f).beginning("provenance_"),
     )

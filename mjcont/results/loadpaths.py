@@ -5,29 +5,35 @@ Layout of a file beside what `files` says (format version 2)::
     /                 attributes: format, format_version, kind "load path", name, vertices (JSON), status, message
     /model            the MJCF text
     /segments/I       a branch (see `branchfiles`), attributes direction, leg
-    /jumps/I          attributes: label, kind, index, energy (absent if not defined), energy_note, time, steps, ...
+    /jumps/I          attributes: label, kind, index, energy (absent if not defined), energy_note, time, steps, ...;
+                      at folds parameter, load, passage (inertia, damping, slope, curvature)
     /jumps/I/states   (m, nq) samples of the motion; the points on both sides are rows of the segments
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import astuple, dataclass, field
 from pathlib import Path
 from typing import Any
 
 import h5py
 import numpy as np
 
-from mjcont.errors import unknown_name
+from mjcont.arguments import checked
+from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import KINDS
+from mjcont.numerics.points.passage import Passage
+from mjcont.outside.hdf5text import Attributes
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
-from mjcont.results.files import FORMAT_VERSION, csv_columns, save_hdf5
+from mjcont.results.files import FORMAT_VERSION, save_hdf5, write_model
 from mjcont.results.model import Model
-from mjcont.results.points import Column, Point, show
+from mjcont.results.points import Point, show
+from mjcont.results.text import Cells, Shown, Tabular
 
 KIND = "load path"
 _SHOWN = 2
@@ -58,7 +64,23 @@ class Segment:
 
 
 @dataclass(frozen=True, slots=True)
-class Jump:
+class Delay:
+    """How late a jump is under a load that changes at a finite rate.
+
+    Attributes
+    ----------
+    time : s between the fold and the jump.
+    shift : how far the load is then beyond the fold, as a positive number.
+    inertial : part of inertia in it: 0 where damping alone delays (shift ~ rate^(2/3)), 1 inertia (rate^(4/5)).
+    """
+
+    time: float
+    shift: float
+    inertial: float
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Jump(Shown):
     """What happens where a rest is lost.
 
     Attributes
@@ -74,6 +96,9 @@ class Jump:
     steps : forward evaluations that it took.
     status, message : "rest", "no rest", "diverged" or "interrupted", and a sentence.
     states : (m, nq) samples of the motion.
+    parameter : what the load changes first, in whose unit the rates and shifts below are.
+    load : its magnitude there, or, where that is zero, of the way left.
+    passage : normal form of the fold for a load that moves at a finite rate; None where it is no fold.
     """
 
     label: str
@@ -88,6 +113,45 @@ class Jump:
     status: str
     message: str
     states: Array = field(repr=False)
+    parameter: str = ""
+    load: float = math.nan
+    passage: Passage | None = None
+
+    def delay(self, rate: float) -> Delay:
+        """Return how late the jump is under a load that changes at a rate, per s, that is, how slow is slow.
+
+        Raises
+        ------
+        MjcontError
+            If the rest is not lost at a fold.
+        ParameterError
+            If the rate is not a positive number, of either sign.
+        """
+        form = self._form()
+        if not (math.isfinite(rate) and rate != 0.0):
+            raise ParameterError(f"the rate of {self.parameter} must be a number other than zero, got {rate!r}")
+        return Delay(form.time(rate), form.shift(rate), form.inertial(rate))
+
+    def slow(self, part: float = 0.01) -> float:
+        """Return the rate, per s, at which the jump is late by a part of the load.
+
+        Raises
+        ------
+        MjcontError
+            If the rest is not lost at a fold.
+        ParameterError
+            If the part is not positive.
+        """
+        form = self._form()
+        if not (math.isfinite(part) and part > 0.0):
+            raise ParameterError(f"the part of the load must be a positive number, got {part!r}")
+        return form.rate(part * self.load)
+
+    def _form(self) -> Passage:
+        if self.passage is None:
+            what = KINDS[self.kind].name if self.kind in KINDS else "a loss of stability that was not located"
+            raise MjcontError(f"{self.label} is {what}: how slow is slow is known at folds (LP) with curvature alone")
+        return self.passage
 
     def __str__(self) -> str:
         """Return a sentence: where, from, to, energy, time."""
@@ -103,11 +167,17 @@ class Jump:
 
         changes = ", ".join(shown(n) for n in names)
         energy = f"; releases {self.energy:.6g} J" if self.energy is not None else ""
-        return f"{self.label} ({what}): {changes}{energy}; {self.message}"
+        late = f"; {self._late()}" if self.passage is not None else ""
+        return f"{self.label} ({what}): {changes}{energy}; {self.message}{late}"
+
+    def _late(self) -> str:
+        """Return a clause: at which rate the jump is late by 1 % of the load."""
+        rate, unit = self.slow(), self.before.units.get(self.parameter, "")
+        return f"late by {show(0.01 * self.load, unit, 3)} under a load of {show(rate, unit, 3)}/s"
 
 
-@dataclass(frozen=True, slots=True)
-class LoadPath:
+@dataclass(frozen=True, slots=True, repr=False)
+class LoadPath(Tabular, Shown):
     """The quasi-static response to a load that follows a path.
 
     Attributes
@@ -148,6 +218,10 @@ class LoadPath:
         """Return a column along the whole path, SI and radians; a jump lies between two rows."""
         return np.concatenate([s[name] for s in self.segments])
 
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return the names that [...] takes."""
+        return self.segments[0].branch._ipython_key_completions_()
+
     def unit(self, name: str) -> str:
         """Return the unit of a column."""
         return self.segments[0].branch.unit(name)
@@ -163,6 +237,7 @@ class LoadPath:
         last = self.segments[-1]
         return last.branch.row(int(last.rows()[-1]))
 
+    @checked
     def jump(self, label: str) -> Jump:
         """Return the jump with a label such as "LP1"."""
         for j in self.jumps:
@@ -170,18 +245,16 @@ class LoadPath:
                 return j
         raise unknown_name("jump", label, [j.label for j in self.jumps])
 
-    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
-        """Write the columns along the whole path as CSV with units in the header; a jump lies between two rows."""
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
         names = [*self.names, *(n for n in self.segments[0].branch.columns if n not in self.names)]
-        columns = {n: Column(n, self.unit(n), "path", self[n]) for n in names}
-        return csv_columns(columns, path, degrees=degrees)
+        return ((n, self.unit(n), self[n]) for n in names)
 
     def save(self, path: str | Path) -> Path:
         """Write the path to an HDF5 file (replacing it whole or not at all) and return the file's path."""
         return save_hdf5(path, self._write)
 
     def _write(self, f: h5py.File) -> None:
-        f.attrs.update(
+        Attributes(f).update(
             format="mjcont",
             format_version=FORMAT_VERSION,
             kind=KIND,
@@ -190,30 +263,34 @@ class LoadPath:
             status=self.status,
             message=self.message,
             evaluations=self.evaluations,
-            declared=json.dumps(dict(self.problem.declared) if self.problem is not None else {}),
         )
-        mjcf = self.problem.mjcf if self.problem is not None else None
-        if mjcf is not None:
-            f["model"] = mjcf
+        write_model(f, self.problem)
         for i, s in enumerate(self.segments):
             g = f.create_group(f"segments/{i}")
             write_branch(s.branch, g, model=False)
-            g.attrs.update(direction=s.direction, leg=s.leg)
+            Attributes(g).update(direction=s.direction, leg=s.leg)
         for i, j in enumerate(self.jumps):
             g = f.create_group(f"jumps/{i}")
-            g.attrs.update(
+            Attributes(g).update(
                 label=j.label, kind=j.kind, index=j.index, energy_note=j.energy_note, time=j.time, steps=j.steps,
                 status=j.status, message=j.message, landed=j.after is not None,
             )
             if j.energy is not None:
-                g.attrs["energy"] = j.energy
+                Attributes(g)["energy"] = j.energy
+            if j.passage is not None:
+                Attributes(g).update(parameter=j.parameter, load=j.load, passage=astuple(j.passage))
             g["states"] = j.states
 
-    def plot(self, x: str | None = None, y: str | None = None, **options: Any) -> Any:
-        """Draw the path with arrows; default the parameter against the first observable. See `mjcont.plot`."""
+    @property
+    def axes(self) -> tuple[str, str]:
+        """The columns that a picture shows unless told otherwise: the parameter, and an observable."""
+        return self.names[0], next(iter(self.final.observables), self.names[0])
+
+    def plot(self, x: str = "", y: str = "", **options: Any) -> Any:
+        """Draw the path with arrows; by default an observable over the parameter. `options` as for `mjcont.plot`."""
         from mjcont.drawing.plotting import plot
 
-        return plot(self, x=x or self.names[0], y=y or next(iter(self.final.observables)), **options)
+        return plot(self, x=x, y=y, **options)
 
     def __str__(self) -> str:
         """Return a readable summary: the way, the pieces, the jumps, how it ended."""
@@ -247,10 +324,10 @@ def read(f: h5py.File, problem: Model | None) -> LoadPath:
     """Return the load path in a file."""
     groups = [f[f"segments/{i}"] for i in range(len(f["segments"]))]
     segments = [
-        Segment(read_branch(g, problem), int(g.attrs["direction"]), int(g.attrs["leg"])) for g in groups
+        Segment(read_branch(g, problem), int(Attributes(g)["direction"]), int(Attributes(g)["leg"])) for g in groups
     ]
     jumps = [_read_jump(f[f"jumps/{i}"], segments) for i in range(len(f["jumps"]) if "jumps" in f else 0)]
-    a = f.attrs
+    a = Attributes(f)
     return LoadPath(
         str(a["name"]), json.loads(a["vertices"]), tuple(segments), tuple(jumps), str(a["status"]),
         str(a["message"]), int(a["evaluations"]), problem,
@@ -258,7 +335,7 @@ def read(f: h5py.File, problem: Model | None) -> LoadPath:
 
 
 def _read_jump(g: h5py.Group, segments: list[Segment]) -> Jump:
-    a, index = g.attrs, int(g.attrs["index"])
+    a, index = Attributes(g), int(Attributes(g)["index"])
     rows = [(s, int(i)) for s in segments for i in s.rows()]
     before, at = rows[index]
     special = [p for p in before.branch.special_points if p.index == at]
@@ -267,5 +344,6 @@ def _read_jump(g: h5py.Group, segments: list[Segment]) -> Jump:
         str(a["label"]), str(a["kind"]), special[0] if special else before.branch.row(at),
         after[0].branch.row(after[1]) if after else None, index,
         float(a["energy"]) if "energy" in a else None, str(a["energy_note"]), float(a["time"]), int(a["steps"]),
-        str(a["status"]), str(a["message"]), g["states"][()],
+        str(a["status"]), str(a["message"]), g["states"][()], str(a.get("parameter", "")),
+        float(a.get("load", math.nan)), Passage(*map(float, a["passage"])) if "passage" in a else None,
     )

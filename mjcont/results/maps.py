@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,12 +13,13 @@ from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.model import units as unit_of
 from mjcont.results.points import SpecialPoint, show
+from mjcont.results.text import Cells, Shown, Tabular, to_xarray
 
 _KINDS = ("contour", "surface")
 
 
-@dataclass(frozen=True, slots=True)
-class SpecialMap:
+@dataclass(frozen=True, slots=True, repr=False)
+class SpecialMap(Tabular, Shown):
     """A special point over a grid of parameters, SI and radians.
 
     Attributes
@@ -48,6 +49,10 @@ class SpecialMap:
             raise unknown_name("quantity", name, [*self.point.free, *self.point.observables])
         return np.asarray(np.vectorize(lambda p: math.nan if p is None else p[name], otypes=[float])(self.points))
 
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return the names that [...] takes."""
+        return [*self.point.parameters, *self.point.observables]
+
     def largest(self, name: str, *, smallest: bool = False) -> SpecialPoint:
         """Return the point at which a quantity is largest on the grid (or smallest)."""
         values = self[name]
@@ -76,6 +81,26 @@ class SpecialMap:
             return draw_line(self, name, ax)
         return draw_map(self, name, kind, ax)
 
+    def to_xarray(self) -> Any:
+        """Return the grid as an xarray Dataset, SI and radians, units in `attrs`.
+
+        Raises
+        ------
+        MjcontError
+            If xarray is not installed.
+        """
+        units = unit_of(self.point.model)
+        own = (*(n for n in self.point.free if n not in self.axes), *self.point.observables)
+        return to_xarray({n: (units[n], a) for n, a in self.axes.items()}, {n: (units[n], self[n]) for n in own})
+
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        units = unit_of(self.point.model)
+        for name, grid in zip(self.axes, np.meshgrid(*self.axes.values(), indexing="ij"), strict=True):
+            yield name, units[name], grid.ravel()
+        own = (n for n in self.point.free if n not in self.axes)
+        yield from ((n, units[n], self[n].ravel()) for n in (*own, *self.point.observables))
+        yield "message", "", self.messages.ravel().tolist()
+
     def __str__(self) -> str:
         """Return the grid, and the range of the point's parameters with where the ends are."""
         shape = " x ".join(str(len(a)) for a in self.axes.values())
@@ -94,8 +119,8 @@ class SpecialMap:
         return "\n".join(lines)
 
 
-@dataclass(frozen=True, slots=True)
-class WorstCase:
+@dataclass(frozen=True, slots=True, repr=False)
+class WorstCase(Tabular, Shown):
     """The extreme of a special point over a box of parameters.
 
     Attributes
@@ -134,6 +159,25 @@ class WorstCase:
     starts: tuple[int, int] = (1, 1)
     grid: SpecialMap | None = field(repr=False, default=None)
 
+    def plot(self, parameter: str | None = None, *, ax: Any = None) -> Any:
+        """Draw the quantity over the grid if there is one, else on its way against a parameter; return the axes."""
+        from mjcont.drawing.charts import draw_steps
+
+        if self.grid is not None and parameter is None:
+            return self.grid.plot(self.quantity, ax=ax)
+        name = parameter or next(iter(self.parameters))
+        if name not in self.parameters:
+            raise unknown_name("parameter", name, self.parameters)
+        return draw_steps(self._steps(), name, self.quantity, unit_of(self.point.model), ax)
+
+    def _steps(self) -> list[Mapping[str, float]]:
+        """Return the improvements, the extreme last."""
+        last = {**self.parameters, self.quantity: self.value}
+        return [*self.path, *([last] if not self.path or dict(self.path[-1]) != last else [])]
+
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        return _steps(self._steps(), [*self.parameters, self.quantity], self.point)
+
     def __str__(self) -> str:
         """Return the extreme, where it is, and the sentence."""
         units = unit_of(self.point.model)
@@ -146,8 +190,8 @@ class WorstCase:
         return f"{head}\n  {self.message}; {self.evaluations} evaluations\n  {self.point}"
 
 
-@dataclass(frozen=True, slots=True)
-class FollowedPoint:
+@dataclass(frozen=True, slots=True, repr=False)
+class FollowedPoint(Tabular, Shown):
     """A special point that was moved to other parameter values.
 
     Attributes
@@ -169,6 +213,28 @@ class FollowedPoint:
     path: Sequence[Mapping[str, float]] = field(repr=False)
     evaluations: int = 0
 
+    def plot(self, x: str | None = None, y: str | None = None, *, ax: Any = None) -> Any:
+        """Draw the way: the point's own parameter (or y) against the first that was moved (or x); return the axes."""
+        from mjcont.drawing.charts import draw_steps
+
+        names = list(self.path[0])
+        own = [n for n in names if n in self.point.free]
+        moved = [n for n in names if n not in own]
+        chosen = (x or (moved or names)[0], y or (own or names)[0])
+        for name in chosen:
+            if name not in names:
+                raise unknown_name("parameter", name, names)
+        return draw_steps(self.path, *chosen, unit_of(self.point.model), ax)
+
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        return _steps(self.path, list(self.path[0]), self.point)
+
     def __str__(self) -> str:
         """Return the sentence and the point."""
         return f"{self.message} ({len(self.path) - 1} steps, {self.evaluations} evaluations)\n  {self.point}"
+
+
+def _steps(path: Sequence[Mapping[str, float]], names: Sequence[str], point: SpecialPoint) -> Iterable[Cells]:
+    """Return a row for each step of a path."""
+    units = unit_of(point.model)
+    return ((n, units[n], np.array([step[n] for step in path])) for n in names)

@@ -7,12 +7,23 @@ import warnings
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from functools import cache
+from html import escape
 from importlib import metadata
 from typing import Any, Protocol, Self
 
 from mjcont.errors import BoundsError, MjcontError, RangeWarning, unknown_name
 from mjcont.numerics.equations.problem import Array, Equations, Values
-from mjcont.results.quantities import Observable, Parameter, column_of, finite_pair
+from mjcont.results.quantities import Observable, Parameter, check_name, column_of, finite_pair
+
+# what numerics and verbs ask of a model, and no user needs
+_ENGINE = frozenset(
+    """
+    active admissible constrained declare_again difference_each failure first_order follows_scale held holding
+    holds_straight linearize_along measure_along nonsmooth one_pattern own_jacobian parameter_stencil passive pencils
+    periods pieces rescaled residuals residuals_along retract_each rigid_directions rigid_modes second_order
+    side_by_side timed writer
+    """.split()
+)
 
 
 class Model(Equations):
@@ -71,8 +82,17 @@ class Model(Equations):
         del sizes, grow
         return None
 
+    def __dir__(self) -> list[str]:
+        """List what a user may use; the rest of the public methods is what the numerics ask for."""
+        return sorted(set(super().__dir__()) - _ENGINE)
+
+    def _repr_html_(self) -> str:
+        """Return the summary as a notebook shows it."""
+        return f"<pre>{escape(str(self))}</pre>"
+
     def parameter(self, name: str) -> Parameter:
         """Return the parameter called `name`."""
+        check_name(name)
         if name not in self.parameters:
             raise unknown_name("parameter", name, self.parameters)
         return self.parameters[name]

@@ -11,18 +11,25 @@ from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import name_of
 from mjcont.results.model import Model, model_of
-from mjcont.results.quantities import column_of
+from mjcont.results.quantities import check_name, column_of
 from mjcont.results.text import Shown
+from mjcont.results.units import displayed, sized
 
 # observables that a summary line shows; all are in the columns
 _SHOWN = 5
+# what rounding leaves of an angle or a length, and of anything else, is shown as 0
+_NOTHING, _TINY = 1e-13, 1e-30
 
 
 def show(value: float, unit: str, digits: int = 7) -> str:
-    """Return a value with its unit; radians are shown in degrees."""
-    if unit == "rad":
-        return f"{math.degrees(value):.{digits}g} deg"
-    return f"{value:.{digits}g} {unit}".rstrip().removesuffix(" 1")
+    """Return a value with its unit; radians in degrees, and kN, MN or mm where digits alone would take an exponent."""
+    value = 0.0 if abs(value) < (_NOTHING if unit in ("rad", "m") else _TINY) else value
+    shown, factor = displayed(unit)
+    text = f"{value * factor:.{digits}g}"
+    if "e" in text:
+        shown, larger = sized(shown, abs(value))
+        text = f"{value * factor * larger:.{digits}g}"
+    return f"{text} {shown}".rstrip().removesuffix(" 1")
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -51,6 +58,7 @@ class Point(Shown):
 
     def __getitem__(self, name: str) -> float:
         """Return a parameter's or observable's value."""
+        check_name(name)
         if name in self.parameters:
             return self.parameters[name]
         if (own := column_of(name, self.observables)) is not None:

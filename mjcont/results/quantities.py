@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from mjcont.errors import BoundsError, ParameterError
+from mjcont.errors import BoundsError, NameLookupError, ParameterError
 from mjcont.results.units import displayed, mistaken
 
 Given = TypeVar("Given")
@@ -227,7 +227,20 @@ def own_observable(
 
 def column_of(name: str, columns: Container[str]) -> str | None:
     """Return the one of `columns` that a name means, None if it means none."""
+    check_name(name)
     return next((n for n in (name, *(f"{owner}:{name}" for owner in OWNERS)) if n in columns), None)
+
+
+def check_values(given: object) -> None:
+    """Raise a ParameterError unless parameter values are given by names."""
+    if not isinstance(given, Mapping):
+        raise ParameterError(f'parameter values are a dict such as {{"F": 20.0}}, got a {type(given).__name__}')
+
+
+def check_name(name: object) -> None:
+    """Raise a NameLookupError unless a name is a string."""
+    if not isinstance(name, str):
+        raise NameLookupError(f'a name is a string such as "F", got a {type(name).__name__}')
 
 
 def meant(name: str, varying: Container[str], observables: Container[str]) -> str:
@@ -266,7 +279,9 @@ def finite_array(
     except (TypeError, ValueError, OverflowError) as error:
         raise ParameterError(f"{what} must be an array of numbers: {error}") from error
     if found.shape != shape:
-        raise ParameterError(f"{what} must have shape {shape}{owner and ' ' + owner}, got {found.shape}")
+        single = found.ndim == 0 and len(shape) == 1
+        more = f": a number for each entry, such as np.full({shape[0]}, {found:g})" if single else ""
+        raise ParameterError(f"{what} must have shape {shape}{owner and ' ' + owner}, got {found.shape}{more}")
     for label, number in zip(labels, found.tolist(), strict=False):
         finite(f"{what}: {label}", number)
     if not (np.abs(found) <= LARGEST).all():

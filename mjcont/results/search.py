@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.spectra.spectrum import Spectrum
+from mjcont.results.model import Model, units
 from mjcont.results.points import Point, show
+from mjcont.results.text import Cells, Shown, Tabular
 
 _SAME_ENERGY = 1e-7
 _SAME_EIGENVALUE = 1e-5
 _SHOWN = 6
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Equilibrium(Point):
     """An equilibrium that a search has found.
 
@@ -66,13 +68,13 @@ class Account:
     bounded: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Equilibria(Sequence[Equilibrium]):
+@dataclass(frozen=True, slots=True, repr=False)
+class Equilibria(Tabular, Shown, Sequence[Equilibrium]):
     """The equilibria that a search has found, in order of energy.
 
     Attributes
     ----------
-    name : the model's name.
+    problem : the model.
     points : tuple of Equilibrium
     account : what the search did.
     ended : why it ended early, or empty.
@@ -80,7 +82,7 @@ class Equilibria(Sequence[Equilibrium]):
     shown : observables that the table shows first: those of the region.
     """
 
-    name: str
+    problem: Model
     points: tuple[Equilibrium, ...]
     account: Account
     ended: str = ""
@@ -113,6 +115,27 @@ class Equilibria(Sequence[Equilibrium]):
     def column(self, name: str) -> Array:
         """Return a parameter, an observable or "energy" of every equilibrium, SI and radians."""
         return np.array([p.energy if name == "energy" else p[name] for p in self.points])
+
+    def plot(self, x: str = "", y: str = "energy", *, ax: Any = None) -> Any:
+        """Draw the equilibria by two columns (default the energy over an observable) and return the axes."""
+        from mjcont.drawing.charts import draw_equilibria
+
+        known = [*self.problem.parameters, *self.problem.observables, "energy"]
+        names = (x or (*self.shown, *self.problem.observables)[0], y)
+        for name in names:
+            if name not in known:
+                raise unknown_name("column", name, known)
+        return draw_equilibria(self, *names, ax)
+
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        words = {"label": "label", "mirror of": "mirror_of", "stability": "stability", "unstable": "n_unstable",
+                 "hits": "hits"}
+        yield from ((head, "", [getattr(p, name) for p in self.points]) for head, name in words.items())
+        yield "energy", "J", self.column("energy")
+        known = units(self.problem)
+        yield from ((n, known[n], self.column(n)) for n in (*self.problem.parameters, *self.problem.observables))
+        for i, (name, unit) in enumerate(self.problem.state_labels):
+            yield f"state {name}", unit, np.array([p.state[i] for p in self.points])
 
     @property
     def stable(self) -> tuple[Equilibrium, ...]:
@@ -148,7 +171,7 @@ class Equilibria(Sequence[Equilibrium]):
 
     def __str__(self) -> str:
         """Return a table of the equilibria and the status."""
-        lines = [f"{self.name}: {self.status}"]
+        lines = [f"{self.problem.name}: {self.status}"]
         if self.points:
             rows = _table(self.points, self.shown)
             widths = [max(len(r[k]) for r in rows) for k in range(len(rows[0]))]
@@ -181,7 +204,7 @@ def same_spectrum(a: Point | Spectrum, b: Point | Spectrum) -> bool:
 
 
 def gather(
-    name: str,
+    problem: Model,
     points: Sequence[Point],
     hits: Sequence[int],
     energies: Array,
@@ -207,4 +230,4 @@ def gather(
         found.append(
             Equilibrium(**common, label=f"E{place}", energy=energy, mirror_of=next(copies, ""), hits=int(hits[i]))
         )
-    return Equilibria(name, tuple(found), account, ended, notes, shown)
+    return Equilibria(problem, tuple(found), account, ended, notes, shown)

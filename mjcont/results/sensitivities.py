@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,12 +12,13 @@ import numpy as np
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import name_of
-from mjcont.outside import csvfiles
 from mjcont.results.points import Point, SpecialPoint, show
+from mjcont.results.text import Cells, Shown, Tabular
+from mjcont.results.units import displayed, per
 
 
-@dataclass(frozen=True, slots=True)
-class Sensitivities:
+@dataclass(frozen=True, slots=True, repr=False)
+class Sensitivities(Tabular, Shown):
     """Derivatives of a point's quantities in parameters, SI and radians.
 
     Attributes
@@ -96,11 +96,18 @@ class Sensitivities:
             {**self.tolerances, **checked_tolerances(tolerances, self.parameters)}, self.evaluations, self.notes,
         )
 
-    def to_csv(self, path: str | Path) -> Path:
-        """Write a row a parameter: value, tolerance, derivatives, elasticities and changes; SI and radians."""
-        from mjcont.results.sensitivities import write_table
-
-        return write_table(self, path)
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        shown = [displayed(self.units[n], (), degrees) for n in self.parameters]
+        sizes = np.array([size for _, size in shown])
+        yield "parameter", "", self.parameters
+        yield "unit", "", [unit or "1" for unit, _ in shown]
+        yield "value", "", sizes * [self.values[n] for n in self.parameters]
+        yield "tolerance", "", sizes * [self.tolerances[n] for n in self.parameters]
+        for j, name in enumerate(self.quantities):
+            unit, size = displayed(self.units[name], (), degrees)
+            yield f"d {name} [{unit or '1'} / unit]", "", self.derivatives[:, j] * (size / sizes)
+            yield f"elasticity of {name}", "", self.elasticities[:, j]
+            yield f"change of {name}", self.units[name], self.changes[:, j]
 
     def plot(
         self, quantity: str | None = None, tolerances: Mapping[str, float] | None = None, *, most: int = 15,
@@ -177,17 +184,8 @@ def headline(s: Sensitivities) -> str:
 def _slope(s: Sensitivities, i: int, j: int) -> str:
     """Return a derivative with its unit, per degree and in degrees for angles."""
     top, bottom = s.units[s.quantities[j]], s.units[s.parameters[i]]
-    value = float(s.derivatives[i, j])
-    value *= (math.degrees(1.0) if top == "rad" else 1.0) * (math.radians(1.0) if bottom == "rad" else 1.0)
-    return f"{value:.6g} {per(top, bottom)}".rstrip()
-
-
-def per(top: str, bottom: str) -> str:
-    """Return the unit of a derivative as it is shown, degrees for radians: "N/kg", "N/(N/m)", "1/m"."""
-    top, bottom = ("deg" if u == "rad" else u for u in (top, bottom))
-    if bottom in ("", "1"):
-        return "" if top == "1" else top
-    return f"{top or '1'}/{f'({bottom})' if any(c in bottom for c in '/* ') else bottom}"
+    unit, factor = per(top, bottom)
+    return f"{factor * float(s.derivatives[i, j]):.6g} {unit}".rstrip()
 
 
 def _ratio(value: float) -> str:
@@ -197,17 +195,3 @@ def _ratio(value: float) -> str:
 def _signed(value: float, unit: str) -> str:
     text = show(abs(value), unit, 4)
     return text if value == 0 or not math.isfinite(value) else f"{'-' if value < 0 else '+'}{text}"
-
-
-def write_table(s: Sensitivities, path: str | Path) -> Path:
-    """Write sensitivities as CSV, SI and radians, a row a parameter."""
-    head = ["parameter", "unit", "value", "tolerance"]
-    for name in s.quantities:
-        unit = s.units[name] or "1"
-        head += [f"d {name} [{unit} / unit]", f"elasticity of {name}", f"change of {name} [{unit}]"]
-    rows: list[list[Any]] = []
-    for i, name in enumerate(s.parameters):
-        rows.append([name, s.units[name] or "1", float(s.values[name]), float(s.tolerances[name])])
-        for j in range(len(s.quantities)):
-            rows[-1] += [float(a[i, j]) for a in (s.derivatives, s.elasticities, s.changes)]
-    return csvfiles.write_table(path, head, rows)

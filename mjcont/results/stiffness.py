@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from mjcont.numerics.equations.problem import Array
-from mjcont.outside.escapes import for_picture
 from mjcont.results.branch import Branch
 from mjcont.results.points import SpecialPoint, show
+from mjcont.results.text import Shown
 
 
-@dataclass(frozen=True, slots=True)
-class StiffnessStudy:
+@dataclass(frozen=True, slots=True, repr=False)
+class StiffnessStudy(Shown):
     """How a special point converges as bushes stiffen.
 
     Attributes
@@ -57,15 +57,6 @@ class StiffnessStudy:
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the deviation against the stiffness, both logarithmic, and return the axes."""
-        from mjcont.drawing.plotting import new_figure
+        from mjcont.drawing.charts import draw_stiffness
 
-        axes = new_figure()[1] if ax is None else ax
-        k, deviation = self.locus[self.parameter], self.deviation
-        axes.loglog(k, np.maximum(deviation, 1e-16), color="black")
-        axes.axhline(self.tol, color="0.6", linestyle="--", linewidth=0.8)
-        if self.converged_from is not None:
-            axes.axvline(self.converged_from, color="0.6", linestyle=":", linewidth=1.0)
-        unit = self.locus.unit(self.parameter)
-        axes.set_xlabel(f"{for_picture(self.parameter)} [{for_picture(unit)}]")
-        axes.set_ylabel(f"relative deviation of {for_picture(self.quantity)} from its limit")
-        return axes
+        return draw_stiffness(self, ax)

@@ -1,6 +1,6 @@
 """What a sweep found: one row a case, and its files.
 
-Layout of an HDF5 file (format version 2)::
+Layout of an HDF5 file (format version 3)::
 
     /                 attributes: format, format_version, kind "sweep", name, what, nominal (JSON), provenance_...
     /study            the text of the study file, if there was one
@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -23,16 +23,18 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.files import FORMAT_VERSION, csv_columns, frozen, read_columns, save_hdf5, write_columns
+from mjcont.outside.hdf5text import Attributes, read_text, read_texts, write_text
+from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, save_hdf5, write_columns
 from mjcont.results.model import Model
 from mjcont.results.points import Column, show
+from mjcont.results.text import Cells, Shown, Tabular
 
 KIND = "sweep"
 _SHOWN_FAILURES = 5
 
 
-@dataclass(frozen=True, slots=True)
-class SweepTable:
+@dataclass(frozen=True, slots=True, repr=False)
+class SweepTable(Tabular, Shown):
     """Quantities of special points over many variants of a model; SI and radians.
 
     Attributes
@@ -110,25 +112,26 @@ class SweepTable:
             return draw_histogram(self, self._column(name), ax)
         return draw_scatter(self, self._column(against), self._column(name), ax)
 
-    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
-        """Write the table as CSV with units in the header, angles in degrees unless told otherwise."""
-        more = ("case", "continued from", "status", "message")
-        numbers = (map(int, self.cases), map(int, self.starts))
-        extra = list(zip(*numbers, map(str, self.status), self.messages, strict=True))
-        return csv_columns(self.columns, path, more, extra, degrees=degrees)
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        yield from ((c.name, c.unit, c.values) for c in self.columns.values())
+        yield "case", "", self.cases
+        yield "continued from", "", self.starts
+        yield "status", "", self.status
+        yield "message", "", self.messages
 
     def save(self, path: str | Path) -> Path:
         """Write the table as HDF5, whole or not at all; `mjcont.load` reads it."""
         return save_hdf5(path, self._write)
 
     def _write(self, f: h5py.File) -> None:
-        f.attrs.update(format="mjcont", format_version=FORMAT_VERSION, kind=KIND, name=self.name, what=self.what)
-        f.attrs["nominal"] = json.dumps(dict(self.nominal))
-        f.attrs.update({f"provenance_{k}": v for k, v in self.provenance.items()})
+        Attributes(f).update(format="mjcont", format_version=FORMAT_VERSION, kind=KIND, name=self.name, what=self.what)
+        Attributes(f)["nominal"] = json.dumps(dict(self.nominal))
+        Attributes(f).update({f"provenance_{k}": v for k, v in self.provenance.items()})
         write_columns(f, self.columns)
-        f["cases"], f["starts"], f["study"] = self.cases, self.starts, self.study
-        f["status"] = np.array([str(s) for s in self.status], dtype=h5py.string_dtype())
-        f["message"] = np.array(list(self.messages), dtype=h5py.string_dtype())
+        f["cases"], f["starts"] = self.cases, self.starts
+        write_text(f, "study", self.study)
+        write_text(f, "status", [str(s) for s in self.status])
+        write_text(f, "message", self.messages)
 
     def __str__(self) -> str:
         """Return how each quantity is distributed, what it goes with, and the first failures."""
@@ -157,14 +160,14 @@ class SweepTable:
 def read(f: h5py.File, problem: Model | None = None) -> SweepTable:
     """Return the sweep in a file."""
     return SweepTable(
-        str(f.attrs["name"]),
-        str(f.attrs["what"]),
+        str(Attributes(f)["name"]),
+        str(Attributes(f)["what"]),
         read_columns(f),
         frozen(f["cases"][()]),
         frozen(f["starts"][()]),
-        frozen(f["status"].asstr()[()].astype("U8")),
-        tuple(str(m) for m in f["message"].asstr()[()]),
-        json.loads(f.attrs["nominal"]),
-        {k.removeprefix("provenance_"): str(v) for k, v in f.attrs.items() if k.startswith("provenance_")},
-        str(f["study"].asstr()[()]),
+        frozen(np.array(read_texts(f["status"]), dtype="U8")),
+        tuple(read_texts(f["message"])),
+        json.loads(Attributes(f)["nominal"]),
+        Attributes(f).beginning("provenance_"),
+        read_text(f["study"]),
     )

@@ -1,15 +1,23 @@
-"""Readable text: tables of parameters, what `mjcont inspect` prints, and how results show themselves."""
+"""How results show themselves: summaries, tables of parameters, and rows as CSV and as frames."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
+from pathlib import Path
 from typing import Any
 
-from mjcont.errors import ParameterError
+import numpy as np
+
+from mjcont.errors import MjcontError
+from mjcont.outside.csvfiles import write_table
 from mjcont.results.quantities import Parameter
+from mjcont.results.units import displayed
 
 _LONGEST = 160
+# a column's name, its unit, and its cells: an array of numbers, or words
+Cells = tuple[str, str, Sequence[Any] | np.ndarray]
 
 
 def table(rows: list[list[str]]) -> list[str]:
@@ -43,6 +51,10 @@ class ParameterTable(dict[str, Parameter]):
 
     __repr__ = __str__
 
+    def _repr_html_(self) -> str:
+        """Return the table as a notebook shows it."""
+        return f"<pre>{escape(str(self))}</pre>"
+
 
 class Shown:
     """A result whose repr is the first line of its summary; a notebook shows all of it, and completes its columns."""
@@ -59,12 +71,65 @@ class Shown:
     def _ipython_key_completions_(self) -> list[str]:
         """Return the names that [...] takes."""
         found: list[str] = []
-        for each in ("columns", "fixed", "parameters", "observables"):
+        for each in ("columns", "fixed", "quantities", "parameters", "observables", "outputs"):
             found += [n for n in getattr(self, each, ()) if n not in found]
         return found
 
 
-def check_kind(what: str, given: Any, kind: type, advice: str) -> None:
-    """Raise a ParameterError unless what a verb is given is of a kind; `advice` says what to write."""
-    if not isinstance(given, kind):
-        raise ParameterError(f"{what} must be a {kind.__name__}, got {type(given).__name__}: {advice}")
+class Tabular:
+    """A result that is a table, as CSV for others and as a frame: `_cells` says what is in it."""
+
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        """Return the columns, SI and radians; `degrees` is whether ratios of angles are shown in degrees."""
+        raise NotImplementedError
+
+    def to_csv(self, path: str | Path, *, degrees: bool = True) -> Path:
+        """Write the table as CSV with units in the header, angles in degrees unless told otherwise."""
+        return write_cells(path, self._cells(degrees), degrees)
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas DataFrame, SI and radians; `attrs["units"]` has the unit of each column.
+
+        Raises
+        ------
+        MjcontError
+            If pandas is not installed.
+        """
+        try:
+            import pandas as pd
+        except ImportError as error:
+            raise MjcontError("to_dataframe needs pandas: pip install 'mjcont[notebook]'") from error
+        cells = list(self._cells(False))
+        frame = pd.DataFrame({name: values for name, _, values in cells})
+        frame.attrs["units"] = {name: unit for name, unit, _ in cells}
+        return frame
+
+
+def to_xarray(dimensions: Mapping[str, tuple[str, Any]], variables: Mapping[str, tuple[str, Any]]) -> Any:
+    """Return an xarray Dataset of variables over dimensions, units in `attrs`; both map names to (unit, values).
+
+    Raises
+    ------
+    MjcontError
+        If xarray is not installed.
+    """
+    try:
+        import xarray
+    except ImportError as error:
+        raise MjcontError("to_xarray needs xarray: pip install 'mjcont[notebook]'") from error
+    over = tuple(dimensions)
+    return xarray.Dataset(
+        {name: (over[: np.ndim(values)], values, {"units": unit}) for name, (unit, values) in variables.items()},
+        {name: (name, values, {"units": unit}) for name, (unit, values) in dimensions.items()},
+    )
+
+
+def write_cells(path: str | Path, columns: Iterable[Cells], degrees: bool = True) -> Path:
+    """Write columns as CSV, their units as shown; what is no number is an empty cell."""
+    heads, cells = [], []
+    for name, unit, values in columns:
+        shown, factor = displayed(unit, (), degrees)
+        heads.append(f"{name} [{shown}]" if shown not in ("", "1") else name)
+        turned = (values if factor == 1.0 else values * factor).tolist() if isinstance(values, np.ndarray) else values
+        cells.append(["" if isinstance(v, float) and math.isnan(v) else v for v in turned])
+    return write_table(path, heads, zip(*cells, strict=True))

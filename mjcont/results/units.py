@@ -124,6 +124,27 @@ def displayed(unit: str, wished: Sequence[str] = (), degrees: bool = True) -> tu
     return ("deg", 180.0 / math.pi) if unit == "rad" and degrees else (unit, 1.0)
 
 
+def sized(unit: str, largest: float) -> tuple[str, float]:
+    """Return the unit in which numbers up to `largest` read well, and the factor that brings them there.
+
+    Forces, torques, energies, stiffnesses and pressures have k from 1e4 on, M from 1e6 on; lengths below 0.1 m are in
+    mm.
+    """
+    if unit == "m" and 0.0 < largest < 0.1:
+        return "mm", 1e3
+    if largest >= 1e4 and re.match(r"(N|J|Pa)(?![A-Za-z])", unit) and math.isfinite(largest):
+        return (f"M{unit}", 1e-6) if largest >= 1e6 else (f"k{unit}", 1e-3)
+    return unit, 1.0
+
+
+def per(top: str, bottom: str, degrees: bool = True) -> tuple[str, float]:
+    """Return the unit in which something in `top` per `bottom` is shown, and the factor: "N/kg", "deg/(N/m)", "1/m"."""
+    (top, upper), (bottom, lower) = displayed(top, (), degrees), displayed(bottom, (), degrees)
+    if bottom in ("", "1"):
+        return "" if top == "1" else top, upper
+    return f"{top or '1'}/{f'({bottom})' if any(c in bottom for c in '/* ') else bottom}", upper / lower
+
+
 def check_wished(wished: Sequence[str]) -> None:
     """Raise a ParameterError unless all units are known."""
     for unit in wished:

@@ -8,19 +8,31 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 from mjcont.errors import MjcontError
 from mjcont.influence.extremes import worst_case
 from mjcont.influence.sensitivities import sensitivities
 from mjcont.motion.certificates import verify_stability
+from mjcont.results.certificates import Certificate
+from mjcont.results.maps import WorstCase
+from mjcont.results.model import units
 from mjcont.results.points import SpecialPoint, show
+from mjcont.studies import forms as f
 from mjcont.studies import keys as k
+from mjcont.studies import values as v
 from mjcont.studies.references import refer
 from mjcont.studies.schema import Table
 
 _CURVES = ("branch", "locus")
-_RESERVED = ("worst", "smallest", "simulations")
+_OWN: Mapping[str, f.Form] = {
+    "worst": {**f.RANGES, "description": "Parameters with [low, high]: the box of the worst case."},
+    "smallest": {**f.FLAG, "description": "Whether the worst is the smallest value, not the largest."},
+    "simulations": {**f.whole(0), "description": "How many points of a curve are simulated beside; 0 for none."},
+}
+ANSWER: f.Form = {"type": "object", "description": "What points mean, such as locks = \"above:LP1\".",
+                  "properties": _OWN, "additionalProperties": f.POINT}
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,19 +53,79 @@ def read_answer(root: Table, context: k.Context) -> AnswerPlan | None:
     with context.noting():
         table = root.table("answer")
         for key in table.data:
-            if key not in _RESERVED:
+            if key not in _OWN:
                 with context.noting():
                     points[key] = refer(table, key, table.text(key), _CURVES, None, context)
-        worst = k.ranges(table, "worst", context) if "worst" in table.data else {}
-        count = k.whole(0)(table, "simulations", context) if "simulations" in table.data else 6
+        worst = v.ranges(table, "worst", context) if "worst" in table.data else {}
+        count = v.whole(0)(table, "simulations", context) if "simulations" in table.data else 6
         plan = AnswerPlan(points, worst, table.flag("smallest"), count)
         if not points:
             raise table.error("", 'expected at least one point with its meaning, such as locks = "equilibria:LP1"')
     return plan if len(context.problems) == before else None
 
 
-def answers(study: Any, results: Sequence[Any]) -> list[str]:
-    """Return the answer to a study as lines; `results` are those of `run_study`.
+@dataclass(frozen=True, slots=True)
+class Influence:
+    """The parameter that moves a point most within its tolerance, and by how much either way."""
+
+    name: str
+    tolerance: float
+    change: float
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """A point with a meaning, and how sure it is: where something cannot be told, the reason stands in its place.
+
+    Attributes
+    ----------
+    meaning, reference : what the study calls it, and the point that it is.
+    quantity, here : what is read, and its value where the curve starts.
+    worst, influence, simulation : None where nobody asked.
+    """
+
+    meaning: str
+    reference: str
+    point: SpecialPoint
+    quantity: str
+    here: float
+    worst: WorstCase | str | None
+    influence: Influence | str
+    simulation: Certificate | str | None
+
+    @property
+    def margin(self) -> float:
+        """How far the start is from the point."""
+        return abs(float(self.point[self.quantity]) - self.here)
+
+    def __str__(self) -> str:
+        """Return the answer, a line for each question."""
+        point, name = self.point, self.quantity
+        unit = point.units.get(name, "")
+        where = ", ".join(f"{n} = {show(point[n], point.units.get(n, ''), 5)}" for n in point.free)
+        asked = {"worst case": self.worst, "most sensitive to": self.influence, "simulation": self.simulation}
+        return "\n".join([
+            f"{self.meaning} at {where}   ({self.reference})",
+            f"  margin: {show(self.margin, unit, 5)} from {name} = {show(self.here, unit, 5)}",
+            *(f"  {what}: not known: {found}" if isinstance(found, str) else f"  {what}: {self._told(found)}"
+              for what, found in asked.items() if found is not None),
+        ])
+
+    def _told(self, found: WorstCase | Influence | Certificate) -> str:
+        name, unit_of = self.quantity, units(self.point.model)
+        unit = unit_of.get(name, "")
+        if isinstance(found, Influence):
+            return (f"{found.name}: +-{show(found.tolerance, found.unit, 3)} moves {name} by "
+                    f"+-{show(found.change, unit, 3)}")
+        if isinstance(found, WorstCase):
+            where = ", ".join(f"{n} = {show(v, unit_of.get(n, ''), 4)}" for n, v in found.parameters.items())
+            return f"{name} = {show(found.value, unit, 5)} at {where}; {found.message}"
+        return found.headline.removeprefix("stability by simulation: ")
+
+
+def answers(study: Any, results: Sequence[Any], say: Callable[[str], None] = lambda what: None) -> list[Answer]:
+    """Return the answers that a study asks for; `results` are those of `run_study`, `say` hears what is being done.
 
     Raises
     ------
@@ -65,7 +137,8 @@ def answers(study: Any, results: Sequence[Any]) -> list[str]:
         done[plan.name] = result
         if hasattr(result, "branches"):
             done |= {f"{plan.name}_{i}": b for i, b in enumerate(result, 1)}
-    lines = [f"{study.mechanism.name}, {study.file}"]
+    found = []
+    checked: dict[str, Certificate | str | None] = {}
     for meaning, reference in study.answer.points.items():
         curve = done.get(reference.result)
         if curve is None:
@@ -74,54 +147,47 @@ def answers(study: Any, results: Sequence[Any]) -> list[str]:
             point = curve.point(reference.label)
         except MjcontError as error:
             raise type(error)(f"study '{study.file}': answer.{meaning}: {error}") from error
-        lines.append(f"{meaning} at {_where(point)}   ({reference})")
-        lines += [f"  {line}" for line in _sure(study, curve, point)]
-    return lines
+        if reference.result not in checked:
+            checked[reference.result] = _simulated(reference.result, curve, study.answer.simulations, say)
+        found.append(_answer(meaning, str(reference), study.answer, curve, point, checked[reference.result], say))
+    return found
 
 
-def _where(point: SpecialPoint) -> str:
-    return ", ".join(f"{n} = {show(point[n], point.units.get(n, ''), 5)}" for n in point.free)
-
-
-def _sure(study: Any, curve: Any, point: SpecialPoint) -> list[str]:
-    """Return how sure a point is: margin, worst case, what it depends on, what simulations say."""
+def _answer(
+    meaning: str, reference: str, plan: AnswerPlan, curve: Any, point: SpecialPoint,
+    simulation: Certificate | str | None, say: Callable[[str], None],
+) -> Answer:
+    """Return how sure a point is."""
     quantity = next(iter(point.free))
-    unit, here = point.units.get(quantity, ""), float(curve[quantity][curve.start_index])
-    lines = [f"margin: {show(abs(point[quantity] - here), unit, 5)} from {quantity} = {show(here, unit, 5)}"]
-    plan: AnswerPlan = study.answer
     ranges = {n: r for n, r in plan.worst.items() if n not in point.free}
+    worst: WorstCase | str | None = None
     if ranges:
-        lines.append(_tried("worst case", lambda: _worst(point, ranges, quantity, plan.smallest)))
-    lines.append(_tried("most sensitive to", lambda: _influence(point, quantity)))
-    if plan.simulations and curve.rated:
-        lines.append(_tried("simulation", lambda: _simulated(curve, plan.simulations)))
-    return lines
+        say(f"worst case of {reference}")
+        worst = _tried(lambda: worst_case(point, ranges, quantity=quantity, maximise=not plan.smallest))
+    say(f"what {reference} depends on")
+    influence = _tried(lambda: _influence(point, quantity))
+    return Answer(meaning, reference, point, quantity, float(curve[quantity][curve.start_index]), worst, influence,
+                  simulation)
 
 
-def _tried(what: str, question: Callable[[], str]) -> str:
-    """Return an answer with what was asked; where it cannot be given, the reason."""
+def _simulated(name: str, curve: Any, count: int, say: Callable[[str], None]) -> Certificate | str | None:
+    """Return what simulations beside a curve say; None where none are asked for, or its rows have no stability."""
+    if not (count and curve.rated):
+        return None
+    say(f"simulations beside {name}")
+    return _tried(lambda: verify_stability(curve, n=count).certificate)
+
+
+def _tried(question: Callable[[], T]) -> T | str:
+    """Return an answer; where it cannot be given, the reason."""
     try:
-        return f"{what}: {question()}"
+        return question()
     except MjcontError as error:
-        return f"{what}: not known: {error}"
+        return str(error)
 
 
-def _worst(point: SpecialPoint, ranges: Mapping[str, tuple[float, float]], quantity: str, smallest: bool) -> str:
-    found = worst_case(point, ranges, quantity=quantity, maximise=not smallest)
-    units = point.units
-    where = ", ".join(f"{n} = {show(v, units.get(n, ''), 4)}" for n, v in found.parameters.items())
-    return f"{quantity} = {show(found.value, units.get(quantity, ''), 5)} at {where}; {found.message}"
-
-
-def _simulated(curve: Any, count: int) -> str:
-    found = verify_stability(curve, n=count).certificate
-    return found.headline if found is not None else "nothing was simulated"
-
-
-def _influence(point: SpecialPoint, quantity: str) -> str:
+def _influence(point: SpecialPoint, quantity: str) -> Influence:
     found = sensitivities(point, quantities=quantity)
     name = found.ordered(quantity)[0]
-    change = found.changes[found.parameters.index(name), 0]
-    unit = found.units[name]
-    return (f"{name}: +-{show(found.tolerances[name], unit, 3)} moves {quantity} by "
-            f"+-{show(abs(float(change)), found.units[quantity], 3)}")
+    change = float(found.changes[found.parameters.index(name), 0])
+    return Influence(name, float(found.tolerances[name]), abs(change), found.units[name])

@@ -15,6 +15,7 @@ from xml.etree import ElementTree
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
+from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import continue_equilibria
 from mjcont.errors import MjcontError
 from mjcont.mechanism.mechanism import Mechanism
@@ -23,6 +24,7 @@ from mjcont.results.formats import load
 from mjcont.results.points import SpecialPoint, show
 from mjcont.studies.first import First, first_look
 from mjcont.studies.plans import load_study
+from mjcont.studies.reporter import Range, Reporter
 from mjcont.studies.study import run_study
 
 _SAME = 1e-9
@@ -86,33 +88,44 @@ class Comparison:
         return "\n".join(line.rstrip() for line in [*lines, *self.missing])
 
 
-def compare(old: str | Path, new: str | Path, folder: Path) -> Comparison:
+def compare(old: str | Path, new: str | Path, folder: Path, reporter: Reporter | None = None) -> Comparison:
     """Return what changed between two models, studies or results; studies write their files into `folder`.
 
-    Two models are given the same question, that of the old one's first study.
+    Two models are given the same question, that of the old one's first study. `reporter` hears how it goes.
 
     Raises
     ------
     MjcontError
         If either cannot be read or computed.
     """
-    sides = [_answers(source, folder / word) for source, word in ((old, "old"), (new, "new"))]
+    sides = [_answers(source, folder / word, reporter) for source, word in ((old, "old"), (new, "new"))]
     looks = [s for s in sides if isinstance(s, First)]
     if len(looks) == 1:
         raise MjcontError(f"compare takes two models, or two of studies and results: got '{old}' and '{new}'")
     if looks:
-        sides = [{"equilibria": _asked(looks[0], look.mechanism)} for look in looks]
+        reporter = reporter or Reporter()
+        sides = []
+        for number, look in enumerate(looks, 1):
+            span = Range(*looks[0].bounds, looks[0].parameter.unit)
+            reporter.started("equilibria", look.mechanism.name, (number, 2), {looks[0].parameter.name: span})
+            sides.append({"equilibria": _asked(looks[0], look.mechanism, reporter.point)})
+            reporter.stopped()
     before, after = (s for s in sides if isinstance(s, Mapping))
-    shared = [n for n in before if n in after and before[n].kind == after[n].kind]
-    if not shared and len(before) == len(after) == 1:
+    if len(before) == len(after) == 1:  # what a file is called makes no difference
         after = dict(zip(before, after.values(), strict=True))
-        shared = list(before)
+    shared = [n for n in before if n in after and _alike(before[n], after[n])]
     curves = tuple(Compared(n, before[n], after[n], matched(before[n], after[n])) for n in shared)
-    missing = [f"{n}: only in {word}" for own, word in ((before, old), (after, new)) for n in own if n not in shared]
+    missing = [f"{n}, {own[n].kind} in {', '.join(own[n].free)}: only in {word}"
+               for own, word in ((before, old), (after, new)) for n in own if n not in shared]
     models = [next((b.problem for b in s.values() if b.problem is not None), None) for s in (before, after)]
     texts = [str(m.mjcf or "") if m is not None else "" for m in models]
     changes = (*model_changes(*texts), *_held_changes(curves))
     return Comparison(_called(old, new), changes, curves, tuple(missing))
+
+
+def _alike(old: Branch, new: Branch) -> bool:
+    """Whether two curves answer one question: of one kind, in the same parameters."""
+    return old.kind == new.kind and set(old.free) == set(new.free)
 
 
 def _called(old: str | Path, new: str | Path) -> tuple[str, str]:
@@ -121,7 +134,7 @@ def _called(old: str | Path, new: str | Path) -> tuple[str, str]:
     return (names[0], names[1]) if names[0] != names[1] else (str(old), str(new))
 
 
-def _answers(source: str | Path, folder: Path) -> dict[str, Branch] | First:
+def _answers(source: str | Path, folder: Path, reporter: Reporter | None) -> dict[str, Branch] | First:
     """Return the curves of a result or a study, by name; of a model what its first study would ask."""
     suffix = Path(source).suffix.lower()
     if suffix in (".h5", ".hdf5"):
@@ -133,7 +146,7 @@ def _answers(source: str | Path, folder: Path) -> dict[str, Branch] | First:
         return first_look(Mechanism.from_xml(source))
     study = load_study(source)
     found: dict[str, Branch] = {}
-    for plan, result in zip(study.plans, run_study(study, folder), strict=False):
+    for plan, result in zip(study.plans, run_study(study, folder, reporter), strict=False):
         several = list(result) if hasattr(result, "branches") else [result]
         numbered = len(several) > 1 or hasattr(result, "branches")
         found |= {f"{plan.name}_{i}" if numbered else plan.name: b for i, b in enumerate(several, 1)
@@ -141,13 +154,15 @@ def _answers(source: str | Path, folder: Path) -> dict[str, Branch] | First:
     return found
 
 
-def _asked(question: First, mechanism: Mechanism) -> Branch:
+def _asked(question: First, mechanism: Mechanism, progress: Progress) -> Branch:
     """Return the curve that answers a question about one model, of another."""
     keyframe = question.keyframe if question.keyframe in (None, *mechanism.keyframes) else None
     low, high = question.bounds
     value = question.parameter.value
     start = {} if low <= value <= high else {question.parameter.name: 0.5 * (low + high)}
-    return continue_equilibria(mechanism, question.parameter.name, (low, high), start, keyframe=keyframe)
+    return continue_equilibria(
+        mechanism, question.parameter.name, (low, high), start, keyframe=keyframe, progress=progress
+    )
 
 
 # -- models ------------------------------------------------------------------------------------------------

@@ -128,7 +128,8 @@ def first_study(source: str | Path, out: Path, mechanism: Mechanism) -> str:
     lines = [
         f"# A first study of {mechanism.name}: where it rests as {name} varies. Run it with",
         "#", f"#     mjcont run {out.name} -o out", "#",
-        "# Lines that begin with # are suggestions: take the # away. `mjcont check` tells what is wrong.",
+        "# Lines that begin with # are suggestions: take the # away. `mjcont check` tells what is wrong, `mjcont docs",
+        "# studies` what else there is, and with `mjcont schema` an editor completes this file.",
         "", f"model = {_text(_model(source, out))}", "", "[parameters]            # values for all results",
         *_others(look), "", "[[branch]]", 'name = "equilibria"',
         f"parameter = {_text(name)}    # {_why(p)}",

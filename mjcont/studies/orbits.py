@@ -12,29 +12,39 @@ from mjcont.oscillation.forced import FREQUENCY, Harmonic, check_forcing, check_
 from mjcont.oscillation.walks import flow_of, read_options
 from mjcont.results.model import check_bounds, units
 from mjcont.results.points import show
+from mjcont.studies import forms as f
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
-from mjcont.studies.keys import Context, Key, Kind
+from mjcont.studies import values as v
+from mjcont.studies.keys import Context, Key, Kind, takes
 from mjcont.studies.schema import Table
 
 ORBITS = ("cycles", "response")
 # what columns say of an observable, and of a response besides
 _NUMBERS, _FIRST = ("max", "min", "amplitude", "mean", "rms"), ("h1", "phase")
-_MESH = {"mesh": int, "degree": int, "scheme": str, "tol": float, "mesh_max": int, "period_max": float}
+_MESH: Mapping[str, f.Form] = {
+    "mesh": f.whole(1), "degree": f.whole(1), "scheme": f.TEXT, "tol": f.QUANTITY, "mesh_max": f.whole(1),
+    "period_max": f.QUANTITY,
+}
+_FORCING: f.Form = {"type": "object", "minProperties": 1, "additionalProperties": {"anyOf": [
+    f.QUANTITY, f.table({"amplitude": f.QUANTITY, "phase": f.QUANTITY, "harmonic": f.whole(1)}, "amplitude"),
+]}}
 
 
+@takes(f.settings(_MESH, "tol"))
 def _settings(table: Table, key: str, context: Context) -> dict[str, Any]:
     """Read fields of `Settings` and those of meshes."""
     inner = table.table(key)
-    k.check_keys(inner, [*_MESH, *(f.name for f in fields(Settings) if f.name != "tol")], (), context)
+    k.check_keys(inner, [*_MESH, *(s.name for s in fields(Settings) if s.name != "tol")], (), context)
     own = {name: given for name, given in inner.data.items() if name in _MESH}
     plain = {name: given for name, given in inner.data.items() if name not in _MESH}
-    found = k.settings(Table(table.file, {key: plain}, table.where), key, context) if plain else {}
+    found = v.settings(Table(table.file, {key: plain}, table.where), key, context) if plain else {}
     with k.about(table, key):
         read_options(flow_of(context.mechanism), own)
     return {**found, **own}
 
 
+@takes(_FORCING)
 def _forcing(table: Table, key: str, context: Context) -> dict[str, Harmonic]:
     """Read inputs: an amplitude each, or a table of amplitude, phase and harmonic."""
     inner, found = table.table(key), {}
@@ -65,14 +75,17 @@ def _unit(name: Any, context: Context) -> str:
     return context.unit(stem if what == "amplitude" else name)
 
 
+@takes(f.PAIR)
 def _bounds(table: Table, key: str, context: Context) -> tuple[float, float]:
-    return k.pair(table, key, _unit(table.data.get("parameter"), context))
+    return v.pair(table, key, _unit(table.data.get("parameter"), context))
 
 
+@takes(f.POSITIVE)
 def _frequency(table: Table, key: str, context: Context) -> float:
-    return k.positive("Hz")(table, key, context)
+    return v.positive("Hz")(table, key, context)
 
 
+@takes(f.TEXT)
 def _name(table: Table, key: str, context: Context) -> str:
     return table.text(key)
 
@@ -136,25 +149,25 @@ def _check_response(found: dict[str, Any], table: Table, context: Context) -> No
 
 
 _POSED = {
-    "start": Key(k.values, "Parameter values at the start, over those of `[parameters]`.", {}, otherwise="none"),
-    "keyframe": Key(k.keyframe, "The keyframe near which the motion begins.", otherwise="the initial pose"),
-    "state": Key(k.state, "The same, as an array of all position coordinates.", otherwise="the initial pose"),
+    "start": Key(v.values, "Parameter values at the start, over those of `[parameters]`.", {}, otherwise="none"),
+    "keyframe": Key(v.keyframe, "The keyframe near which the motion begins.", otherwise="the initial pose"),
+    "state": Key(v.state, "The same, as an array of all position coordinates.", otherwise="the initial pose"),
 }
 _ENDING = {
-    "direction": Key(k.direction, "`1` or `-1`: only that way, in which the parameter first grows or falls.",
+    "direction": Key(v.direction, "`1` or `-1`: only that way, in which the parameter first grows or falls.",
                      otherwise="both"),
-    "csv": Key(k.flag, "Whether to write NAME.csv: a row an orbit, angles in degrees.", False),
+    "csv": Key(v.flag, "Whether to write NAME.csv: a row an orbit, angles in degrees.", False),
     "settings": Key(_settings, "`mesh`, `degree`, `scheme`, `tol`, `mesh_max`, `period_max`, and fields of "
                                "`mjcont.Settings` but its `tol`.", {}, otherwise="their defaults"),
 }
-_RESULT = Key(k.result_name, "Names its files, and the result elsewhere in the study.", needed=True)
+_RESULT = Key(v.result_name, "Names its files, and the result elsewhere in the study.", needed=True)
 
 CYCLES = Kind("cycles", "A curve of limit cycles (`continue_cycles`).", {
     "name": _RESULT,
     "point": Key(r.reference("branch", *ORBITS),
                  "Where it begins: a Hopf point, such as `\"equilibria:HB1\"`; a PD, a BPC or another orbit of cycles.",
                  otherwise="the cycle on which the motion from the start settles"),
-    "parameter": Key(k.parameter, "The parameter that varies.", otherwise="that of the point's curve"),
+    "parameter": Key(v.parameter, "The parameter that varies.", otherwise="that of the point's curve"),
     "bounds": Key(_bounds, "`[low, high]`.", otherwise="those of the point's curve, or the parameter's own"),
     **_POSED, **_ENDING,
 }, _check_cycles)
@@ -191,6 +204,7 @@ def own_columns(context: Context) -> dict[str, str]:
     return found | {n: _unit(n, context) for n in free if n not in units(context.mechanism)}
 
 
+@takes(f.TEXT)
 def plotted(table: Table, key: str, context: Context) -> str:
     """Read the name of a column: a parameter, an observable, or what curves of orbits have besides."""
     name, valid = table.text(key), {**units(context.mechanism), **own_columns(context)}

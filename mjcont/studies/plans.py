@@ -12,24 +12,37 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from mjcont.arguments import checked
 from mjcont.errors import StudyError, did_you_mean, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.loading import shipped_folder, shipped_models
 from mjcont.results.quantities import FRICTION
-from mjcont.studies.answers import AnswerPlan, read_answer
-from mjcont.studies.keys import Context, Reference, about, check_keys, pair, read, value_table
+from mjcont.studies import forms as f
+from mjcont.studies.answers import ANSWER, AnswerPlan, read_answer
+from mjcont.studies.forms import PLOT_SUFFIXES
+from mjcont.studies.keys import Context, Reference, about, check_keys, read
+from mjcont.studies.plots import PLOT
 from mjcont.studies.schema import Table
-from mjcont.studies.sweeps import read_sweep
-from mjcont.studies.tables import KINDS, PLOT, PLOT_SUFFIXES, known
+from mjcont.studies.sweeps import SWEEP, read_sweep
+from mjcont.studies.tables import KINDS, known
+from mjcont.studies.values import pair, value_table
 from mjcont.sweeps.plan import Setup, SweepPlan
 
 __all__ = ["PLOT_SUFFIXES", "BranchPlan", "PlotPlan", "Study", "Task", "check_study", "load_study"]
 
 STUDY_VERSION = 1
-TOP = (
-    "version", "model", "friction", "parameters", "declare", *(kind.table for kind in KINDS.values()), "plot", "sweep",
-    "answer",
-)
+DECLARE = f.table({"targets": {**f.TEXTS, "minItems": 1}, "unit": f.TEXT, "bounds": f.PAIR}, "targets",
+                  text="A parameter that the model does not declare itself.")
+TOP: Mapping[str, f.Form] = {
+    "version": {"const": STUDY_VERSION, "description": "Version of this schema."},
+    "model": {**f.TEXT, "description": "An MJCF file, relative to the study, or a model that ships with mjcont."},
+    "friction": {**f.choice(*FRICTION), "description": "Leave friction out of equilibria, or refuse models with it."},
+    "parameters": {**f.VALUES, "description": "Values for every result, by the parameters' names."},
+    "declare": {"type": "object", "additionalProperties": DECLARE},
+    **{kind.table: f.tables(kind.form()) for kind in (*KINDS.values(), PLOT)},
+    "sweep": SWEEP,
+    "answer": ANSWER,
+}
 _NAME = re.compile(r"[A-Za-z_]\w*")
 
 
@@ -103,7 +116,7 @@ class Study:
         """
         plan = self.sweep
         if plan is None:
-            raise StudyError(f"study '{self.file}': it has no table [sweep]: docs/sweeps.md tells what goes in there")
+            raise StudyError(f"study '{self.file}': it has no table [sweep]: see `mjcont docs sweeps`")
         needed = {p.branch for p in plan.points if p.branch}
         branches = tuple(b for b in self.branches if b.name in needed)
         starts = [self.mechanism.values(b.start) for b in branches]
@@ -125,6 +138,7 @@ class Study:
         return Setup(self.mechanism, plan, friction, {**starts[0], **nominal}, solved, record, branches, None, text)
 
 
+@checked
 def load_study(path: str | Path, *, friction: str | None = None) -> Study:
     """Read a study file and check all of it, also against its model; `friction` comes before the file's own.
 
@@ -299,8 +313,8 @@ def _load_model(root: Table, folder: Path, friction: str | None) -> Mechanism:
 
 def _declare(declare: Table, name: str, mechanism: Mechanism) -> None:
     table = declare.table(name)
-    table.only("targets", "unit", "bounds")
-    table.require("targets")
+    table.only(*DECLARE["properties"])
+    table.require(*DECLARE["required"])
     known = mechanism.parameters.get(name)
     if not _NAME.fullmatch(name):
         raise declare.error(name, "a parameter's name consists of letters, digits and '_'")

@@ -7,9 +7,12 @@ from collections.abc import Sequence
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.points.kinds import KINDS, found_on
+from mjcont.studies import forms as f
 from mjcont.studies.keys import Context, Known, Reader, Reference
 from mjcont.studies.schema import Table
 
+# a point, or a search with all its points; or several of them
+_POINTS: f.Form = {"anyOf": [f.TEXT, {**f.TEXTS, "minItems": 1}]}
 _LABEL = re.compile(r"([A-Z]+)([1-9]\d*)")
 # labels of points: by kind of result those that it can have, and the names that it has for sure
 _ROWS = ("start", "first", "last")
@@ -40,7 +43,7 @@ def reference(*kinds: str, labels: Sequence[str] | None = None) -> Reader:
     def reader(table: Table, key: str, context: Context) -> Reference:
         return refer(table, key, table.text(key), kinds, labels, context)
 
-    return reader
+    return Reader(reader, f.POINT)
 
 
 def references(*kinds: str) -> Reader:
@@ -60,7 +63,7 @@ def references(*kinds: str) -> Reader:
                     found.append(refer(table, place, written, kinds, None, context))
         return tuple(found)
 
-    return reader
+    return Reader(reader, _POINTS)
 
 
 def refer(
@@ -94,7 +97,7 @@ def curve(*kinds: str) -> Reader:
         known_result(table, key, name, kinds, context)
         return name
 
-    return reader
+    return Reader(reader, f.TEXT)
 
 
 def curves(*kinds: str) -> Reader:
@@ -109,4 +112,4 @@ def curves(*kinds: str) -> Reader:
             raise table.error(key, "expected at least one branch; leave the key out for all of them")
         return names
 
-    return reader
+    return Reader(reader, {**f.TEXTS, "minItems": 1})

@@ -2,21 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from mjcont.curves.collect import Found
 
 
+@dataclass(frozen=True, slots=True)
+class Range:
+    """Where a parameter goes while a curve is followed: from, to, and its unit."""
+
+    low: float
+    high: float
+    unit: str
+
+
 class Reporter:
     """Hears what a run does, and keeps quiet; the base of those that tell."""
 
-    def started(self, name: str, task: str, columns: Sequence[tuple[str, str]]) -> None:
-        """Hear that a branch is started; `columns` are names and units worth showing."""
+    def started(self, name: str, task: str, place: tuple[int, int], ranges: Mapping[str, Range]) -> None:
+        """Hear that a result is begun, the how manieth of how many, and between which bounds its curve will run."""
 
-    def point(self, count: int, special: Found | None) -> None:
-        """Hear that there are `count` points, the latest of them special where `special` is given."""
+    def point(self, count: int, found: Found) -> None:
+        """Hear that a curve has `count` points, and of the latest; its kind is empty unless it is special."""
+
+    def step(self, done: float, total: float) -> None:
+        """Hear that so much of a known amount is done."""
 
     def finished(self, result: Any, files: Sequence[Path]) -> None:
         """Hear that a result is done and stored in `files`."""
@@ -25,4 +38,4 @@ class Reporter:
         """Hear that a plot is stored."""
 
     def stopped(self) -> None:
-        """Hear that a branch has ended, well or not."""
+        """Hear that a result has ended, well or not."""

@@ -14,6 +14,7 @@ from mjcont.errors import MjcontError, unknown_name
 from mjcont.results.branch import Branch
 from mjcont.results.model import units
 from mjcont.results.points import show
+from mjcont.results.text import Tabular
 from mjcont.studies.keys import Reference
 from mjcont.studies.plans import Task
 from mjcont.studies.reporter import Reporter
@@ -90,7 +91,8 @@ def task_line(mechanism: Any, plan: Task) -> str:
         "locus": lambda: f"{of}, {span(g['parameter'], g['bounds'])}",
         "path": lambda: g["parameter"] + " " + " -> ".join(show(v, unit_of[g["parameter"]], 6) for v in g["values"])
         if g["parameter"] else f"{len(g['loads'])} loads",
-        "history": lambda: f"{g['duration']:g} s, " + (", ".join(g["inputs"]) or "no inputs"),
+        "history": lambda: ", ".join([*([f"{g['duration']:g} s"] if g["duration"] else []),
+                                      *(g["inputs"] or ["no inputs"])]),
         "worst case": lambda: f"{of}, " + ", ".join(span(n, b) for n, b in g["ranges"].items()),
         "map": lambda: f"{of}, " + ", ".join(f"{span(n, (a[0], a[-1]))} ({len(a)})" for n, a in g["grid"].items()),
     }
@@ -104,7 +106,6 @@ def compute(plan: Task, at: Running) -> Outcome:
 
 def _search(plan: Task, at: Running) -> Outcome:
     from mjcont.curves.search import find_equilibria
-    from mjcont.studies.outputs import equilibria_csv
 
     g = plan.given
     found = find_equilibria(
@@ -112,7 +113,7 @@ def _search(plan: Task, at: Running) -> Outcome:
         max_solutions=g["max_solutions"], keyframes=g["keyframes"], progress=at.reporter.point,
         **_given(g, "max_seconds"),
     )
-    return found, [equilibria_csv(found, at.mechanism, at.folder / f"{plan.name}.csv")] if g["csv"] else []
+    return found, _table(found, plan, at)
 
 
 def _diagram(plan: Task, at: Running) -> Outcome:
@@ -181,22 +182,25 @@ def _path(plan: Task, at: Running) -> Outcome:
     g = plan.given
     way = (g["parameter"], g["values"]) if g["parameter"] else (g["loads"], None)
     options = {**start_of(g, at.done), **{key: g[key] for key in ("landing", "max_time", "max_jumps")}, **g["settings"]}
-    found = load_path(at.mechanism, way[0], way[1], **options)
+    found = load_path(at.mechanism, way[0], way[1], progress=at.reporter.step, **options)
     return found, store_curve(found, plan.name, g["csv"], at.folder)
 
 
 def _history(plan: Task, at: Running) -> Outcome:
     from mjcont.motion.histories import simulate
-    from mjcont.studies.outputs import draw_history
+    from mjcont.results.orbits import OrbitPoint, SpecialOrbit
 
     g = plan.given
+    begin: dict[str, Any] = {"problem": at.mechanism, **start_of(g, at.done)}
+    if isinstance(begin["start"], OrbitPoint | SpecialOrbit):
+        begin = {"problem": begin["start"]}
     found = simulate(
-        at.mechanism, g["inputs"], g["duration"], **start_of(g, at.done),
+        **begin, inputs=g["inputs"], duration=g["duration"],
         **{key: g[key] for key in ("timestep", "integrator", "tol", "until_rest", "samples")},
     )
     files = store_curve(found, plan.name, g["csv"], at.folder)
     if g["columns"]:
-        files.append(draw_history(found, g["columns"], at.folder / f"{plan.name}.png"))
+        files.append(_drawn(found.plot(*g["columns"]), plan, at))
     return found, files
 
 
@@ -207,28 +211,26 @@ def _sensitivity(plan: Task, at: Running) -> Outcome:
     found = sensitivities(
         point_of(at.done, g["point"]), g["parameters"], quantities=g["quantities"], tolerances=g["tolerances"]
     )
-    files = [found.to_csv(at.folder / f"{plan.name}.csv")] if g["csv"] else []
-    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+    return found, [*_table(found, plan, at), *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
 
 
 def _worst(plan: Task, at: Running) -> Outcome:
     from mjcont.influence.extremes import worst_case
-    from mjcont.studies.outputs import worst_case_csv
 
     g = plan.given
     found = worst_case(
-        point_of(at.done, g["point"]), g["ranges"], **{key: g[key] for key in ("quantity", "maximise", "grid", "tol")}
+        point_of(at.done, g["point"]), g["ranges"], progress=at.reporter.step,
+        **{key: g[key] for key in ("quantity", "maximise", "grid", "tol")},
     )
-    return found, [worst_case_csv(found, at.folder / f"{plan.name}.csv")] if g["csv"] else []
+    return found, _table(found, plan, at)
 
 
 def _map(plan: Task, at: Running) -> Outcome:
     from mjcont.influence.maps import special_map
-    from mjcont.studies.outputs import map_csv
 
     g = plan.given
-    found = special_map(point_of(at.done, g["point"]), g["grid"])
-    files = [map_csv(found, at.folder / f"{plan.name}.csv")] if g["csv"] else []
+    found = special_map(point_of(at.done, g["point"]), g["grid"], progress=at.reporter.step)
+    files = _table(found, plan, at)
     if g["png"] and found.exists.any():
         options = {"kind": g["kind"]} if len(found.axes) == 2 else {}
         axes = found.plot(g["quantity"] or next(iter(found.point.free)), **options)
@@ -238,7 +240,6 @@ def _map(plan: Task, at: Running) -> Outcome:
 
 def _certificate(plan: Task, at: Running) -> Outcome:
     from mjcont.motion.certificates import verify_stability
-    from mjcont.studies.outputs import certificate_csv
 
     g = plan.given
     found = verify_stability(
@@ -246,43 +247,37 @@ def _certificate(plan: Task, at: Running) -> Outcome:
     )
     certificate = found.certificate
     files = [found.save(at.folder / f"{plan.name}.h5")]
-    if g["csv"] and certificate is not None:
-        files.append(certificate_csv(certificate, at.folder / f"{plan.name}.csv"))
-    return certificate, files
+    return certificate, [*files, *(_table(certificate, plan, at) if certificate is not None else [])]
 
 
 def _barrier(plan: Task, at: Running) -> Outcome:
     from mjcont.motion.barriers import barrier_along
-    from mjcont.studies.outputs import barrier_csv
 
     g = plan.given
     saddles = [b for name in g["saddles"] for b in curves_of(at.done, name)]
-    found = barrier_along(curve_of(at.done, g["branch"]), saddles, search=g["search"])
-    files = [barrier_csv(found, at.folder / f"{plan.name}.csv")] if g["csv"] else []
-    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+    found = barrier_along(curve_of(at.done, g["branch"]), saddles, search=g["search"], progress=at.reporter.step)
+    return found, [*_table(found, plan, at), *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
 
 
 def _modes(plan: Task, at: Running) -> Outcome:
-    from mjcont.drawing.plotting import save_figure
     from mjcont.oscillation.modes import modes
 
     g = plan.given
     found = modes(point_of(at.done, g["point"]))
-    files = [found.to_csv(at.folder / f"{plan.name}.csv")] if g["csv"] else []
-    return found, [*files, *([save_figure(found.plot(), at.folder / f"{plan.name}.png")] if g["png"] else [])]
+    files = [found.save(at.folder / f"{plan.name}.h5"), *_table(found, plan, at)]
+    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
 
 
 def _transfer(plan: Task, at: Running) -> Outcome:
     import numpy as np
 
-    from mjcont.drawing.plotting import save_figure
     from mjcont.oscillation.transfer import transfer
 
     g = plan.given
     hertz = np.geomspace(g["frequencies"][0], g["frequencies"][1], g["count"]) if g["frequencies"] else None
     found = transfer(point_of(at.done, g["point"]), g["input"], g["output"] or None, hertz)
-    files = [found.to_csv(at.folder / f"{plan.name}.csv")] if g["csv"] else []
-    return found, [*files, *([save_figure(found.plot(), at.folder / f"{plan.name}.png")] if g["png"] else [])]
+    files = [found.save(at.folder / f"{plan.name}.h5"), *_table(found, plan, at)]
+    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
 
 
 _RUNS: Mapping[str, Callable[[Task, Running], Outcome]] = {
@@ -296,10 +291,14 @@ def _given(values: Mapping[str, Any], *keys: str) -> dict[str, Any]:
     return {key: values[key] for key in keys if values[key] is not None}
 
 
-def _drawn(axes: Any, plan: Task, at: Running) -> Path:
+def _table(found: Tabular, plan: Task, at: Running) -> list[Path]:
+    return [found.to_csv(at.folder / f"{plan.name}.csv")] if plan.given["csv"] else []
+
+
+def _drawn(picture: Any, plan: Task, at: Running) -> Path:
     from mjcont.drawing.plotting import save_figure
 
-    return save_figure(axes.figure, at.folder / f"{plan.name}.png")
+    return save_figure(picture.figure, at.folder / f"{plan.name}.png")
 
 
 def store_curve(result: Any, name: str, csv: bool, folder: Path) -> list[Path]:

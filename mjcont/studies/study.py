@@ -9,13 +9,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from mjcont.arguments import checked
 from mjcont.curves.continuation import continue_equilibria
 from mjcont.errors import MjcontError
 from mjcont.outside.saving import output_folder
 from mjcont.results.model import units
 from mjcont.results.points import show
 from mjcont.studies.plans import BranchPlan, PlotPlan, Study, Task, check_study, load_study
-from mjcont.studies.reporter import Reporter
+from mjcont.studies.reporter import Range, Reporter
 from mjcont.studies.runs import Running, compute, curves_of, interrupted, start_of, store_curve, task_line
 
 __all__ = [
@@ -23,9 +24,8 @@ __all__ = [
     "run_study", "summary",
 ]
 
-_SHOWN = 4
 
-
+@checked
 def run_study(study: Study, out: str | Path, reporter: Reporter | None = None) -> list[Any]:
     """Compute what a study asks for, storing each result in the folder `out` as soon as it is done; draw its plots.
 
@@ -54,8 +54,9 @@ def run_study(study: Study, out: str | Path, reporter: Reporter | None = None) -
     done: dict[str, Any] = {}
     results: list[Any] = []
     open_plots = list(study.plots)
-    for plan in study.plans:
-        result, files = _compute(study, plan, Running(study.mechanism, folder, done, reporter))
+    for number, plan in enumerate(study.plans, 1):
+        place = number, len(study.plans)
+        result, files = _compute(study, plan, place, Running(study.mechanism, folder, done, reporter))
         results.append(result)
         done[plan.name] = result
         if isinstance(plan, Task) and plan.kind == "diagram":
@@ -80,14 +81,16 @@ def interruption(study: Study, results: Sequence[Any], out: str | Path) -> str:
     return f"interrupted: {held}" + (f"; {skipped} more not computed" if skipped else "")
 
 
-def _compute(study: Study, plan: BranchPlan | Task, at: Running) -> tuple[Any, list[Path]]:
+def _compute(
+    study: Study, plan: BranchPlan | Task, place: tuple[int, int], at: Running
+) -> tuple[Any, list[Path]]:
     """Compute one table of a study and store it; errors name the study and the table."""
     try:
         if isinstance(plan, Task):
             what = f"{study.mechanism.name}, {task_line(study.mechanism, plan)}"
-            at.reporter.started(plan.name, what, _watched(study, plan))
+            at.reporter.started(plan.name, what, place, _ranges(study, plan))
             return compute(plan, at)
-        at.reporter.started(plan.name, _task(study, plan), _shown_columns(study, plan))
+        at.reporter.started(plan.name, _task(study, plan), place, _ranges(study, plan))
         pose = {"from": plan.origin, "start": plan.start, "keyframe": plan.keyframe, "state": plan.state}
         branch = continue_equilibria(
             study.mechanism,
@@ -107,16 +110,17 @@ def _compute(study: Study, plan: BranchPlan | Task, at: Running) -> tuple[Any, l
         at.reporter.stopped()
 
 
-def _watched(study: Study, plan: Task) -> list[tuple[str, str]]:
-    """Return the columns that points are shown with while a table other than a branch is computed."""
-    unit_of, observables = units(study.mechanism), study.mechanism.observables
-    if plan.kind in ("cycles", "response"):  # observables of an orbit are no numbers while it is followed
-        name = plan.given["parameter"] or plan.given["point"].result
-        return [(name, "Hz" if name == "frequency" else unit_of.get(name, ""))] if plan.given["parameter"] else []
-    plotted = [c for p in study.plots if plan.name in p.branches for c in (p.x, p.y)]
-    varying = [plan.given["parameter"]] if plan.kind in ("diagram", "locus") else []
-    wanted = dict.fromkeys([*varying, *(c for c in plotted if c in observables), *observables])
-    return [(n, unit_of[n]) for n in list(wanted)[:_SHOWN]]
+def _ranges(study: Study, plan: BranchPlan | Task) -> dict[str, Range]:
+    """Return between which bounds the parameter of a curve is followed."""
+    name: str | None
+    bounds: tuple[float, float] | None
+    if isinstance(plan, BranchPlan):
+        name, bounds = plan.parameter, plan.bounds
+    else:
+        name, bounds = plan.given.get("parameter"), plan.given.get("bounds")
+    if not name or not bounds or (isinstance(plan, Task) and plan.kind == "diagram"):  # of how many branches?
+        return {}
+    return {name: Range(*bounds, units(study.mechanism).get(name, "Hz" if name == "frequency" else ""))}
 
 
 def _task(study: Study, plan: BranchPlan) -> str:
@@ -124,15 +128,6 @@ def _task(study: Study, plan: BranchPlan) -> str:
     low, high = (show(b, unit_of[plan.parameter]) for b in plan.bounds)
     fixed = [f"{n} = {show(v, unit_of[n])}" for n, v in plan.start.items() if n != plan.parameter]
     return ", ".join([f"{study.mechanism.name}, {plan.parameter} from {low} to {high}", *fixed])
-
-
-def _shown_columns(study: Study, plan: BranchPlan) -> list[tuple[str, str]]:
-    """Return the columns worth watching, with units: the parameter, what the study asks about, other observables."""
-    unit_of = units(study.mechanism)
-    plotted = [c for p in study.plots if plan.name in p.branches for c in (p.x, p.y)]
-    wanted = dict.fromkeys([plan.parameter, *plan.zeros, *plotted, *study.mechanism.observables])
-    varying = [n for n in wanted if n == plan.parameter or n in study.mechanism.observables]
-    return [(n, unit_of[n]) for n in varying[:_SHOWN]]
 
 
 def draw(plan: PlotPlan, results: Mapping[str, Any], folder: Path) -> Path:

@@ -10,11 +10,22 @@ import numpy as np
 
 from mjcont.errors import MjcontError, StudyError, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
+from mjcont.studies import forms as f
 from mjcont.studies.schema import Table, shown
 from mjcont.sweeps.designs import DESIGNS, DISTRIBUTIONS, Spread
 from mjcont.sweeps.jobs import METHODS, PointPlan
 from mjcont.sweeps.plan import DEEPEST, SweepPlan
 
+_WIDTH: f.Form = {"anyOf": [f.QUANTITY, {"type": "string", "pattern": "%"}]}
+_POINT = f.table({"name": f.TEXT, "label": f.TEXT, "branch": f.TEXT, "of": f.TEXT, "parameter": f.TEXT,
+                  "bounds": f.PAIR}, "name", "label")
+_VARY = f.table({**dict.fromkeys(DISTRIBUTIONS, _WIDTH), "centre": f.QUANTITY, "cut": f.QUANTITY,
+                 "values": f.QUANTITIES, "range": f.PAIR, "count": f.whole(1)})
+SWEEP = f.table({
+    "design": f.choice(*DESIGNS), "cases": f.whole(1), "seed": f.whole(0), "record": f.TEXTS,
+    "method": f.choice(*METHODS), "depth": f.whole(1), "point": f.tables(_POINT, 1),
+    "vary": {"type": "object", "additionalProperties": _VARY, "minProperties": 1},
+}, "point", "vary", text="Many variants of the model, for mjcont sweep.")
 _NAME = re.compile(r"[A-Za-z_]\w*")
 _PERCENT = re.compile(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*%\s*")
 
@@ -29,8 +40,8 @@ def read_sweep(root: Table, mechanism: Mechanism, branches: Sequence[Any]) -> Sw
     if "sweep" not in root.data:
         return None
     table = root.table("sweep")
-    table.only("design", "cases", "seed", "record", "method", "depth", "point", "vary")
-    table.require("point", "vary")
+    table.only(*SWEEP["properties"])
+    table.require(*SWEEP["required"])
     choices = {"design": DESIGNS, "method": METHODS}
     for key, valid in choices.items():
         if key in table.data and table.text(key) not in valid:
@@ -57,7 +68,7 @@ def read_sweep(root: Table, mechanism: Mechanism, branches: Sequence[Any]) -> Sw
 def _points(table: Table, mechanism: Mechanism, branches: Mapping[str, Any]) -> tuple[PointPlan, ...]:
     found: dict[str, PointPlan] = {}
     for t in table.tables("point"):
-        t.only("name", "label", "branch", "of", "parameter", "bounds")
+        t.only(*_POINT["properties"])
         t.require("name", "label")
         name = t.text("name")
         if not _NAME.fullmatch(name) or name in found:
@@ -92,7 +103,7 @@ def _vary(vary: Table, name: str, mechanism: Mechanism) -> Spread | tuple[float,
         unit = mechanism.parameter(name).unit
     except MjcontError as error:
         raise vary.error(name, error) from error
-    table.only(*DISTRIBUTIONS, "centre", "cut", "values", "range", "count")
+    table.only(*_VARY["properties"])
     kinds = [k for k in (*DISTRIBUTIONS, "values", "range") if k in table.data]
     if len(kinds) != 1:
         raise vary.error(name, f"give one of {', '.join((*DISTRIBUTIONS, 'values', 'range'))}")

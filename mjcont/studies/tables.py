@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from mjcont.errors import MjcontError, unknown_name
@@ -15,17 +14,16 @@ from mjcont.oscillation.loci import FOLLOWED
 from mjcont.results.model import check_bounds, units
 from mjcont.results.points import show
 from mjcont.results.quantities import column_of
-from mjcont.results.units import check_wished
+from mjcont.studies import forms as f
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
-from mjcont.studies.keys import Context, Key, Kind
+from mjcont.studies import values as v
+from mjcont.studies.keys import Context, Key, Kind, takes
 from mjcont.studies.linear import MODES, TRANSFER
-from mjcont.studies.orbits import CYCLES, ORBITS, RESPONSES, check_plotted, default_curves, plotted
+from mjcont.studies.orbits import CYCLES, ORBITS, RESPONSES
 from mjcont.studies.schema import Table
-from mjcont.studies.waveforms import read_input
+from mjcont.studies.waveforms import INPUTS, read_input
 
-PLOT_SUFFIXES = (".png", ".pdf", ".svg")
-CURVES = ("branch", "locus", "diagram", "path", *ORBITS)
 SPECIAL = ("branch", "locus")
 _POSED = ("start", "keyframe", "state")
 _LOCATED = (*CONTINUABLE, "UZ")
@@ -81,10 +79,12 @@ def _check_locus(found: dict[str, Any], table: Table, context: Context) -> None:
     found["bounds"] = _own_bounds(found, context)
 
 
+@takes(f.tables(f.VALUES, 2))
 def _loads(table: Table, key: str, context: Context) -> tuple[dict[str, float], ...]:
-    return tuple(k.value_table(inner, context) for inner in table.tables(key))
+    return tuple(v.value_table(inner, context) for inner in table.tables(key))
 
 
+@takes({**f.QUANTITIES, "minItems": 2})
 def _values(table: Table, key: str, context: Context) -> tuple[float, ...]:
     name, given = table.data.get("parameter"), table.data[key]
     unit, count = context.unit(name), max(len(given), 2) if isinstance(given, list) else 2
@@ -108,6 +108,7 @@ def _check_path(found: dict[str, Any], table: Table, context: Context) -> None:
     found["start"] = {**context.common, **found["start"]}
 
 
+@takes(INPUTS)
 def _inputs(table: Table, key: str, context: Context) -> dict[str, Any]:
     inner, found = table.table(key), {}
     for name in inner.data:
@@ -128,14 +129,16 @@ def _check_history(found: dict[str, Any], table: Table, context: Context) -> Non
     found["start"] = {**context.common, **found["start"]}
 
 
+@takes(f.VALUES)
 def _tolerances(table: Table, key: str, context: Context) -> dict[str, float]:
     inner, found = table.table(key), {}
     for name in inner.data:
         with context.noting(), k.about(inner, name):
-            found[name] = k.positive(context.mechanism.parameter(name).unit)(inner, name, context)
+            found[name] = v.positive(context.mechanism.parameter(name).unit)(inner, name, context)
     return found
 
 
+@takes(f.TEXTS)
 def _quantities(table: Table, key: str, context: Context) -> tuple[str, ...]:
     names, valid = table.texts(key), [*units(context.mechanism), "omega"]
     for i, name in enumerate(names):
@@ -174,53 +177,26 @@ def _check_map(found: dict[str, Any], table: Table, context: Context) -> None:
         raise table.error("kind", "a surface needs two parameters in grid")
 
 
-def _plot_file(table: Table, key: str, context: Context) -> str:
-    file = table.text(key)
-    if not k.FILE_STEM.fullmatch(file) or Path(file).suffix not in PLOT_SUFFIXES:
-        suffixes = ", ".join(PLOT_SUFFIXES)
-        raise table.error(key, f"'{file}' must be a file name of letters, digits, '-', '_' and '.', without a folder, "
-                               f"ending in one of {suffixes}")
-    return file
-
-
-def _wished_units(table: Table, key: str, context: Context) -> tuple[str, ...]:
-    """Read units in which numbers are to be shown."""
-    found = table.texts(key)
-    with k.about(table, key):
-        check_wished(found)
-    return found
-
-
-def _check_plot(found: dict[str, Any], table: Table, context: Context) -> None:
-    if not found["branches"]:
-        plain = tuple(n for n, known in context.known.items() if known.kind in ("branch", "diagram"))
-        plain = default_curves(found, context, plain)
-        found["branches"] = plain or tuple(n for n, known in context.known.items() if known.kind in CURVES)
-    if not found["branches"]:
-        raise table.error("branches", "the study computes no branch, locus, diagram or path to draw")
-    check_plotted(found, table, context)
-
-
-_NAME = Key(k.result_name, "Names its files, and the result elsewhere in the study. Letters, digits, `-`, `_`, `.`.",
+_NAME = Key(v.result_name, "Names its files, and the result elsewhere in the study. Letters, digits, `-`, `_`, `.`.",
             needed=True)
-_PARAMETER = Key(k.parameter, "The parameter that varies.", needed=True)
-_BOUNDS = Key(k.bounds, "`[low, high]`.", otherwise="the parameter's own")
-_START = Key(k.values, "Parameter values at the start, over those of `[parameters]`.", {}, otherwise="none")
-_KEYFRAME = Key(k.keyframe, "The keyframe where the first equilibrium is looked for.", otherwise="the initial pose")
-_STATE = Key(k.state, "The same, as an array of all position coordinates.", otherwise="the initial pose")
+_PARAMETER = Key(v.parameter, "The parameter that varies.", needed=True)
+_BOUNDS = Key(v.bounds, "`[low, high]`.", otherwise="the parameter's own")
+_START = Key(v.values, "Parameter values at the start, over those of `[parameters]`.", {}, otherwise="none")
+_KEYFRAME = Key(v.keyframe, "The keyframe where the first equilibrium is looked for.", otherwise="the initial pose")
+_STATE = Key(v.state, "The same, as an array of all position coordinates.", otherwise="the initial pose")
 _FROM = Key(r.reference("search", "branch", "locus", "path"),
             "A point of an earlier result, such as `\"found:E1\"`, in place of start, keyframe and state.",
             otherwise="none")
-_DIRECTION = Key(k.direction, "`1` or `-1`: only that way, in which the parameter first grows or falls.",
+_DIRECTION = Key(v.direction, "`1` or `-1`: only that way, in which the parameter first grows or falls.",
                  otherwise="both")
 _ZEROS = Key(
-    k.zeros,
+    v.zeros,
     "Columns and values whose passing is labelled UZ, such as `{ theta_1 = \"10 deg\" }`; "
     "or several values, `[0, \"10 deg\"]`.",
     {},
     otherwise="none",
 )
-_SETTINGS = Key(k.settings, "Fields of `mjcont.Settings`: `ds`, `ds_max`, `angle`, `chord`, `max_points`, ...", {},
+_SETTINGS = Key(v.settings, "Fields of `mjcont.Settings`: `ds`, `ds_max`, `angle`, `chord`, `max_points`, ...", {},
                 otherwise="its defaults")
 _POINT = Key(r.reference(*SPECIAL, labels=_LOCATED),
              "The special point, such as `\"equilibria:LP1\"`, or `\"D_1:LP1\"` on the first branch of a diagram `D`.",
@@ -229,23 +205,23 @@ _BRANCH = Key(r.curve("branch"), "The branch; the first of a diagram `D` is `D_1
 
 
 def _csv(text: str, default: bool) -> Key:
-    return Key(k.flag, f"Whether to write NAME.csv: {text}.", default)
+    return Key(v.flag, f"Whether to write NAME.csv: {text}.", default)
 
 
 def _png(text: str) -> Key:
-    return Key(k.flag, f"Whether to draw NAME.png: {text}.", True)
+    return Key(v.flag, f"Whether to draw NAME.png: {text}.", True)
 
 
 SEARCH = Kind("searches", "Every equilibrium in a region (`find_equilibria`). Its points are E1, E2, ...", {
     "name": _NAME,
-    "start": Key(k.values, "Parameter values, over those of `[parameters]`.", {}, otherwise="none"),
-    "region": Key(k.region, "Ranges of joints or observables, such as `{ theta_1 = [\"-90 deg\", 0] }`.", {},
+    "start": Key(v.values, "Parameter values, over those of `[parameters]`.", {}, otherwise="none"),
+    "region": Key(v.region, "Ranges of joints or observables, such as `{ theta_1 = [\"-90 deg\", 0] }`.", {},
                   otherwise="everywhere"),
-    "starts": Key(k.whole(1), "Starts in each round.", 200),
-    "seed": Key(k.whole(0), "Seed of the starts.", 0),
-    "max_solutions": Key(k.whole(1), "Equilibria after which the search ends.", 200),
-    "max_seconds": Key(k.positive("s"), "Time after which the search ends.", otherwise="no limit"),
-    "keyframes": Key(k.flag, "Whether the model's keyframes are further starts.", True),
+    "starts": Key(v.whole(1), "Starts in each round.", 200),
+    "seed": Key(v.whole(0), "Seed of the starts.", 0),
+    "max_solutions": Key(v.whole(1), "Equilibria after which the search ends.", 200),
+    "max_seconds": Key(v.positive("s"), "Time after which the search ends.", otherwise="no limit"),
+    "keyframes": Key(v.flag, "Whether the model's keyframes are further starts.", True),
     "csv": _csv("a row an equilibrium", True),
 }, _check_search)
 
@@ -258,33 +234,33 @@ BRANCH = Kind("branch", "A curve of equilibria in one parameter.", {
 DIAGRAM = Kind("diagrams", "Every branch that the starts reach through branch points (`bifurcation_diagram`). "
                            "They are NAME_1, NAME_2, ..., each with a file.", {
     "name": _NAME, "parameter": _PARAMETER, "bounds": _BOUNDS, "start": _START,
-    "keyframes": Key(k.keyframes, "Keyframes to start from as well.", (), otherwise="none"),
+    "keyframes": Key(v.keyframes, "Keyframes to start from as well.", (), otherwise="none"),
     "from": Key(r.references("search", "branch", "locus", "path"),
                 "Points of earlier results to start from; a search's name stands for all its points.",
                 otherwise="none"),
-    "max_branches": Key(k.whole(1), "Branches after which the diagram ends.", 50),
+    "max_branches": Key(v.whole(1), "Branches after which the diagram ends.", 50),
     "csv": _csv("a file a branch", False), "settings": _SETTINGS,
 }, _check_diagram)
 
 LOCUS = Kind("loci", "A special point followed in one more parameter (`continue_special`).", {
     "name": _NAME,
     "point": Key(r.reference(*SPECIAL, *ORBITS, labels=(*CONTINUABLE, *FOLLOWED)), _POINT.text, needed=True),
-    "parameter": Key(k.parameter, "The parameter that is freed.", needed=True),
+    "parameter": Key(v.parameter, "The parameter that is freed.", needed=True),
     "bounds": _BOUNDS, "direction": _DIRECTION, "zeros": _ZEROS,
     "csv": _csv("a row a point", False), "settings": _SETTINGS,
 }, _check_locus)
 
 PATH = Kind("paths", "The response to a load that changes slowly, with its jumps (`load_path`).", {
     "name": _NAME,
-    "parameter": Key(k.parameter, "The parameter that changes; with `values`.", otherwise="see `loads`"),
+    "parameter": Key(v.parameter, "The parameter that changes; with `values`.", otherwise="see `loads`"),
     "values": Key(_values, "Its values along the path, such as `[0, 30, 0]`.", otherwise="see `loads`"),
     "loads": Key(_loads, "Where several parameters change: `[{ F = 0 }, { F = 3, k_sp = 12 }]`.",
                  otherwise="see `values`"),
     "start": _START, "keyframe": _KEYFRAME, "state": _STATE, "from": _FROM,
-    "landing": Key(k.choice("landing", *LANDINGS), "Where an escape lands: `\"motion\"`, or `\"creep\"` (no inertia).",
+    "landing": Key(v.choice("landing", *LANDINGS), "Where an escape lands: `\"motion\"`, or `\"creep\"` (no inertia).",
                    "motion"),
-    "max_time": Key(k.positive("s"), "Time after which a motion counts as not coming to rest.", 1000.0),
-    "max_jumps": Key(k.whole(0), "Jumps after which the path ends.", 50),
+    "max_time": Key(v.positive("s"), "Time after which a motion counts as not coming to rest.", 1000.0),
+    "max_jumps": Key(v.whole(0), "Jumps after which the path ends.", 50),
     "csv": _csv("a row a point, in order of travel", False), "settings": _SETTINGS,
 }, _check_path)
 
@@ -292,22 +268,25 @@ HISTORY = Kind("histories", "A motion in time (`simulate`).", {
     "name": _NAME,
     "inputs": Key(_inputs, "Parameters that vary with time: a number, a table or a [shape](#inputs).", {},
                   otherwise="none"),
-    "duration": Key(k.positive("s"), "How long.", 10.0),
-    "start": _START, "keyframe": _KEYFRAME, "state": _STATE, "from": _FROM,
-    "timestep": Key(k.positive("s"), "The step; with `tol` the first and largest.", otherwise="the model's"),
-    "integrator": Key(k.choice("integrator", *INTEGRATORS, "model"),
+    "duration": Key(v.positive("s"), "How long.", otherwise="10, or ten periods of an orbit"),
+    "start": _START, "keyframe": _KEYFRAME, "state": _STATE,
+    "from": Key(r.reference("search", "branch", "locus", "path", "cycles", "response"),
+                "A point of an earlier result, such as `\"found:E1\"`, in place of start, keyframe and state; an "
+                "orbit, such as `\"response:PD1\"`, under its forcing.", otherwise="none"),
+    "timestep": Key(v.positive("s"), "The step; with `tol` the first and largest.", otherwise="the model's"),
+    "integrator": Key(v.choice("integrator", *INTEGRATORS, "model"),
                       "One of " + ", ".join(f'`"{name}"`' for name in INTEGRATORS) + ", or `\"model\"`: its own.",
                       "discrete"),
-    "tol": Key(k.positive("1"), "Halve the step until that changes the motion by less.", otherwise="no control"),
-    "until_rest": Key(k.positive("1"), "End when every speed has stayed below this over 1 s.", otherwise="no"),
-    "samples": Key(k.whole(2), "About how many samples are stored.", 2000),
+    "tol": Key(v.positive("1"), "Halve the step until that changes the motion by less.", otherwise="no control"),
+    "until_rest": Key(v.positive("1"), "End when every speed has stayed below this over 1 s.", otherwise="no"),
+    "samples": Key(v.whole(2), "About how many samples are stored.", 2000),
     "csv": _csv("a row a sample", False),
-    "columns": Key(k.columns, "Inputs and observables to draw against time in NAME.png.", (), otherwise="no picture"),
+    "columns": Key(v.columns, "Inputs and observables to draw against time in NAME.png.", (), otherwise="no picture"),
 }, _check_history)
 
 SENSITIVITY = Kind("sensitivities", "How a special point moves with every parameter (`sensitivities`).", {
     "name": _NAME, "point": _POINT,
-    "parameters": Key(k.parameters, "Names or paths such as `\"body:link_1.mass\"`.",
+    "parameters": Key(v.parameters, "Names or paths such as `\"body:link_1.mass\"`.",
                       otherwise="all that the model declares"),
     "quantities": Key(_quantities, "What moves: the point's parameters, observables, `omega`.",
                       otherwise="the point's parameters"),
@@ -318,20 +297,20 @@ SENSITIVITY = Kind("sensitivities", "How a special point moves with every parame
 
 WORST = Kind("worst_cases", "The extreme of a special point over a box of parameters (`worst_case`).", {
     "name": _NAME, "point": _POINT,
-    "ranges": Key(k.ranges, "The box, such as `{ k_sp = [8, 12] }`.", needed=True),
-    "quantity": Key(k.column, "What is extreme.", otherwise="the point's first parameter"),
-    "maximise": Key(k.flag, "`false` for the smallest.", True),
-    "grid": Key(k.whole(2), "Values a parameter of a grid that confirms the extreme.", otherwise="no grid"),
-    "tol": Key(k.positive("1"), "Projected gradient at which it has converged.", 1e-7),
+    "ranges": Key(v.ranges, "The box, such as `{ k_sp = [8, 12] }`.", needed=True),
+    "quantity": Key(v.column, "What is extreme.", otherwise="the point's first parameter"),
+    "maximise": Key(v.flag, "`false` for the smallest.", True),
+    "grid": Key(v.whole(2), "Values a parameter of a grid that confirms the extreme.", otherwise="no grid"),
+    "tol": Key(v.positive("1"), "Projected gradient at which it has converged.", 1e-7),
     "csv": _csv("the way to the extreme", True),
 }, _check_worst)
 
 MAP = Kind("maps", "A special point over a grid of one or two parameters (`special_map`).", {
     "name": _NAME, "point": _POINT,
-    "grid": Key(k.grid, "Values, or `{ from, to, count }`, such as `{ k_sp = { from = 8, to = 12, count = 5 } }`.",
+    "grid": Key(v.grid, "Values, or `{ from, to, count }`, such as `{ k_sp = { from = 8, to = 12, count = 5 } }`.",
                 needed=True),
-    "quantity": Key(k.column, "What is drawn.", otherwise="the point's first parameter"),
-    "kind": Key(k.choice("kind of picture", "contour", "surface"),
+    "quantity": Key(v.column, "What is drawn.", otherwise="the point's first parameter"),
+    "kind": Key(v.choice("kind of picture", "contour", "surface"),
                 "For two parameters: `\"contour\"` or `\"surface\"`.", "contour"),
     "csv": _csv("a row a node", True), "png": _png("a line, contours or a surface"),
 }, _check_map)
@@ -341,33 +320,19 @@ CERTIFICATE = Kind("certificates", "Stability held against simulations beside po
     "name": _NAME,
     "branch": Key(r.curve("branch", *ORBITS), "The branch, or a curve of orbits; the first of a diagram `D` is `D_1`.",
                   needed=True),
-    "n": Key(k.whole(1), "Number of points.", 20),
-    "amplitude": Key(k.positive("1"), "Of the disturbance.", 1e-7),
-    "tolerance": Key(k.positive("1"), "Relative difference of rate and eigenvalue that confirms.", 0.05),
-    "max_steps": Key(k.whole(1), "Steps a point.", 200_000),
+    "n": Key(v.whole(1), "Number of points.", 20),
+    "amplitude": Key(v.positive("1"), "Of the disturbance.", 1e-7),
+    "tolerance": Key(v.positive("1"), "Relative difference of rate and eigenvalue that confirms.", 0.05),
+    "max_steps": Key(v.whole(1), "Steps a point.", 200_000),
     "csv": _csv("a row a point checked", True),
 })
 
 BARRIER = Kind("barriers", "The energy that dislodges a rest, along a branch (`barrier_along`).", {
     "name": _NAME, "branch": _BRANCH,
     "saddles": Key(r.curves("branch", "diagram"), "Branches on which to look for passes, too.", (), otherwise="none"),
-    "search": Key(k.flag, "Whether passes are searched for.", True),
+    "search": Key(v.flag, "Whether passes are searched for.", True),
     "csv": _csv("a row a rest", True), "png": _png("the barrier against the parameter"),
 })
-
-PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
-    "file": Key(_plot_file, "File name ending in `.png`, `.pdf` or `.svg`, without a folder.", needed=True),
-    "x": Key(plotted, "Column: a parameter or an observable; of orbits also `period`, `frequency`, `NAME.max`, `.min`, "
-                      "`.amplitude`, `.mean`, `.rms`, of responses `.h1`, `.phase`.", needed=True),
-    "y": Key(plotted, "The same. An observable of orbits is drawn by its largest and smallest value.", needed=True),
-    "branches": Key(r.curves(*CURVES), "Names of branches, diagrams, cycles, responses, loci and paths.",
-                    otherwise="all but loci and paths; if there are none, these"),
-    "title": Key(k.text, "A string.", ""),
-    "labels": Key(k.flag, "`false` leaves out the labels of special points.", True),
-    "degrees": Key(k.flag, "`false` draws angles in radians.", True),
-    "units": Key(_wished_units, 'Units of the axes that they fit, such as `["kN", "mm"]`.', ()),
-    "legend": Key(k.flag, "`false` leaves out the key to line styles and markers.", True),
-}, _check_plot)
 
 # by kind of result, in the order in which they are computed
 KINDS = {

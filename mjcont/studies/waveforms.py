@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mjcont.errors import unknown_name
+from mjcont.studies import forms as f
 from mjcont.studies.schema import Table
 
 
@@ -69,6 +70,21 @@ SHAPES = {
                   "about `base`, of amplitude `amplitude` and period `period`, upwards through `base` at `start`"),
 }
 _TIMES = ("start", "duration", "period")
+
+
+def _inputs() -> f.Form:
+    """Return what inputs are: numbers, tables or shapes."""
+    given = {"times": f.QUANTITIES, "values": f.QUANTITIES}
+    shapes = [
+        f.table({"shape": {"const": name}, **dict.fromkeys(form.keys, f.QUANTITY)}, "shape",
+                *(k for k, default in form.keys.items() if default is None), text=form.text)
+        for name, form in SHAPES.items()
+    ]
+    any_of = [f.QUANTITY, f.table(given, "times", "values"), *shapes]
+    return {"type": "object", "additionalProperties": {"anyOf": any_of}}
+
+
+INPUTS = _inputs()
 _EXPECTED = "a number, { times, values } or { shape, ... }"
 
 

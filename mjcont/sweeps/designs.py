@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import check_fields
 from mjcont.errors import ParameterError, unknown_name
 from mjcont.numerics.equations.problem import Array
 
@@ -49,6 +50,7 @@ class Spread:
 
     def __post_init__(self) -> None:
         """Refuse what is no distribution."""
+        check_fields(self)
         if self.kind not in DISTRIBUTIONS:
             raise unknown_name("distribution", self.kind, DISTRIBUTIONS)
         if not (math.isfinite(self.width) and self.width > 0):
@@ -122,6 +124,8 @@ def make_design(
 
 
 def _probabilities(design: str, cases: int, dimensions: int, seed: int) -> Array:
+    if seed < 0:
+        raise ParameterError(f"seed must be a whole number from 0 on, got {seed}")
     random = np.random.Generator(np.random.PCG64(seed))
     inside = random.random((cases, dimensions))
     if design == "monte carlo":

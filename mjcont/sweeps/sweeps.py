@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import ParameterError
 from mjcont.influence.critical import check_alone, check_not_own
 from mjcont.numerics.equations.problem import Array
@@ -38,6 +39,7 @@ from mjcont.sweeps.plan import Setup, Sweepable, SweepPlan, of_points
 Progress = Callable[[int, int, int], None]
 
 
+@checked
 def sweep(
     what: Sweepable | Mapping[str, SpecialPoint],
     vary: Vary | None = None,

@@ -241,7 +241,7 @@ def test_other_limits_end_a_search_and_are_told(limit):
 
 def test_an_interrupt_returns_what_had_been_found():
     def stop(starts, found):
-        if found is not None:
+        if found.kind:
             raise KeyboardInterrupt
 
     found = find_equilibria(cubes(3), progress=stop)
@@ -253,7 +253,7 @@ def test_an_interrupt_returns_what_had_been_found():
 def test_progress_hears_of_every_equilibrium_once():
     heard = []
     found = find_equilibria(cubes(2), progress=lambda starts, item: heard.append(item))
-    assert sum(item is not None for item in heard) == len(found) == 9
+    assert sum(item.kind == "EQ" for item in heard) == len(found) == 9
 
 
 def test_the_result_prints_as_a_table_and_starts_a_diagram():

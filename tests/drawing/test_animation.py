@@ -133,7 +133,7 @@ def test_a_stored_history_knows_the_parameters_that_it_held(history, tmp_path):
         ({"fps": -1.0}, "fps must be a positive number"),
         ({"seconds": 1e6}, "more than 5000"),
         ({"size": (8, 8)}, "whole number from 64"),
-        ({"on": "b.h5"}, "on takes a Branch"),
+        ({"on": "b.h5"}, "on must be a Branch or a list of Branches"),
         ({"rendering": "photo"}, "unknown rendering 'photo'.*drawing, mujoco"),
         ({"camera": "side"}, "goes with rendering='mujoco'"),
         ({"rendering": "mujoco", "camera": "front"}, "unknown camera 'front'. Valid: side"),
@@ -149,7 +149,7 @@ def test_wrong_input_is_refused_and_leaves_no_file(history, tmp_path, options, m
 def test_results_without_poses_are_refused(history, tmp_path):
     with pytest.raises(mc.MjcontError, match="without a Mechanism"):
         mc.animate(replace(history, problem=None), tmp_path / "a.gif")
-    with pytest.raises(mc.MjcontError, match="got a int"):
+    with pytest.raises(mc.MjcontError, match="got the int 3"):
         mc.animate(3, tmp_path / "a.gif")
     first = {n: replace(c, values=c.values[:1]) for n, c in history.columns.items()}
     with pytest.raises(mc.MjcontError, match="at least two rows"):

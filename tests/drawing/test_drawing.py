@@ -262,7 +262,7 @@ def test_labels_do_not_overlap_and_stay_inside(model, keyframe):
 
 
 def test_everything_is_named_unless_told_otherwise(overcentre):
-    assert sorted(names(draw(overcentre))) == ["A", "B", "C", "F", "link_1", "link_2", "spring"]
+    assert sorted(names(draw(overcentre))) == ["A", "B", "C", "F", "link 1", "link 2", "spring"]
     assert names(draw(overcentre, labels=False)) == []
     assert sorted(names(draw(overcentre, labels=("pins", "forces")))) == ["A", "B", "C", "F"]
     renamed = names(draw(overcentre, labels={"link_1": "crank", "spring": ""}))
@@ -279,9 +279,9 @@ def test_a_pose_that_is_none_is_refused(overcentre, overcentre_branch):
         draw(overcentre, "up")
     with pytest.raises(mc.ParameterError, match=r"state must have shape \(6,\)"):
         draw(overcentre, np.zeros(5))
-    with pytest.raises(mc.MjcontError, match="a pose is a point, a state or a keyframe's name, got a Branch"):
+    with pytest.raises(mc.MjcontError, match="pose must be a Point, an array of numbers or a string, got the Branch"):
         draw(overcentre, overcentre_branch())
-    with pytest.raises(mc.MjcontError, match="only a Mechanism can be drawn, got a VectorField"):
+    with pytest.raises(mc.MjcontError, match="draw: mechanism must be a Mechanism, got the VectorField"):
         draw(mc.VectorField(lambda u, p: u, [0.0], {"a": 1.0}))
 
 

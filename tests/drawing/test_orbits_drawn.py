@@ -49,7 +49,7 @@ def test_a_frequency_response_is_one_line_with_units():
     ax = mc.plot(resonance(), x="w", y="x.amplitude")
     (line,) = lines(ax)
     assert line.get_ydata() == pytest.approx(np.degrees(resonance()["x.amplitude"]))
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("w [rad/s]", "x.amplitude [deg]")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("w [rad/s]", "x amplitude [deg]")
 
 
 def test_an_unknown_observable_is_an_error_that_lists_columns():

@@ -61,8 +61,8 @@ def test_pieces_of_a_curve(words, special, expected):
 
 def test_angles_are_drawn_in_degrees_unless_told_otherwise(cusp):
     turned, plain = plot(cusp, x="mu", y="x"), plot(cusp, x="mu", y="x", degrees=False)
-    assert turned.get_xlabel() == "mu [deg]"
-    assert plain.get_xlabel() == "mu [rad]"
+    assert turned.get_xlabel() == "μ [deg]"
+    assert plain.get_xlabel() == "μ [rad]"
     assert turned.get_ylabel() == "x"
     assert np.allclose(curves(turned)[0].get_xdata(), np.degrees(curves(plain)[0].get_xdata()))
 

@@ -366,7 +366,7 @@ def test_a_guess_is_refused():
 
 @pytest.mark.parametrize("verb", [mc.sensitivities, lambda p: mc.continue_special(p, "m_1"), mc.switch_branches])
 def test_what_is_no_point_is_refused_with_what_to_write(verb):
-    with pytest.raises(mc.ParameterError, match=r'got str: take one of a branch: branch.point\("[BL]P1"\)'):
+    with pytest.raises(mc.ParameterError, match=r'got the str .LP1.: take one of a branch: branch.point\("[BL]P1"\)'):
         verb("LP1")
 
 

@@ -93,6 +93,7 @@ def test_a_light_damper_gives_a_status_and_keeps_the_path_up_to_the_fold(overcen
     path = mc.load_path(overcentre, "F", [50.0, 0.0], {"c_sp": 0.01}, max_time=20.0)
     assert path.status == "no rest"
     assert "not at rest after" in path.message
+    assert 'landing="creep" lands without inertia' in path.message
     assert path.jump("LP1").after is None
     assert path.final["F"] == pytest.approx(UPPER_FOLD, abs=1e-8)
 
@@ -187,6 +188,7 @@ def test_a_rest_lost_to_an_oscillation_ends_the_path_at_the_hopf_point():
     assert path.status == "no rest"
     assert path.jump("HB1").before["m"] == pytest.approx(0.0, abs=1e-10)
     assert "oscillation" in path.message
+    assert "creep" not in path.message
 
 
 def test_a_motion_that_runs_to_infinity_in_finite_time_ends_the_path_as_diverged():
@@ -229,7 +231,7 @@ def test_the_diagram_of_a_path_has_an_arrow_for_each_segment_and_jump(branch, cy
     ("arguments", "message"),
     [
         (("F", [50.0]), "at least two different loads"),
-        (("F", ["x", 50.0]), "must be numbers"),
+        (("F", ["x", 50.0]), "must be a list of numbers"),
         (("F", None), "needs the values of F"),
         (("G", [0.0, 1.0]), "unknown parameter 'G'"),
         (("F", [50.0, math.nan]), "finite number"),

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from problems.pictures import lengths
 from scipy.optimize import brentq
 
 import mjcont as mc
@@ -82,6 +83,19 @@ def test_barriers_lie_some_way_apart_whatever_the_rows(truss):
     assert len(curve.rows) < 0.7 * len(stable)
     assert {truss.start_index, *(p.index for p in truss.of_kind("LP"))} <= set(curve.rows.tolist())
     assert curve.rows[[0, -1]].tolist() == stable[[0, -1]].tolist()
+
+
+def test_barriers_are_drawn_as_a_line_a_stable_piece_of_the_branch(truss):
+    whole = mc.continue_equilibria(truss.problem, "P", bounds=(-300.0, 300.0))
+    curve = mc.barrier_along(whole, search=False)
+    assert list(np.unique(curve.pieces)) == [0, 1]  # upright and inverted
+    for piece in (0, 1):
+        heights = [b.rest["z"] for b, n in zip(curve.barriers, curve.pieces, strict=True) if n == piece]
+        assert (min(heights) > 0.0) != (max(heights) < 0.0)
+    ax = curve.plot()
+    ax.figure.draw_without_rendering()
+    assert len(lengths(ax, "_barrier")) == 2
+    assert min(lengths(ax, "_barrier")) > 0.3 * ax.bbox.width
 
 
 def test_a_pendulum_turns_over_past_a_barrier_of_twice_its_weight_times_length(pendulum_xml):

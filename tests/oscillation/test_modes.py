@@ -162,7 +162,7 @@ def test_modes_are_drawn_animated_and_written(tmp_path):
 
 
 def test_what_is_no_equilibrium_has_no_modes():
-    with pytest.raises(mc.MjcontError, match="modes belong to an equilibrium"):
+    with pytest.raises(mc.MjcontError, match="point must be a Point, got the dict"):
         mc.modes({"F": 30.0})
     modes = mc.modes(mc.find_equilibrium(mc.Mechanism.from_xml("ziegler_rods"), {"P": 1.0}))
     with pytest.raises(mc.MjcontError, match="there is no mode 3: the modes of this equilibrium are 1 to 2"):

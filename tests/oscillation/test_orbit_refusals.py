@@ -81,7 +81,7 @@ def test_a_model_needs_a_parameter_to_vary():
 
 
 def test_what_cycles_begin_at_is_named():
-    with pytest.raises(mc.MjcontError, match="a point of kind HB, PD or BPC, an orbit or a model; got int"):
+    with pytest.raises(mc.MjcontError, match="an OrbitPoint, an Orbit, a Mechanism or a VectorField, got the int 3"):
         mc.continue_cycles(3)
 
 

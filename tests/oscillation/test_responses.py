@@ -93,3 +93,23 @@ def test_a_curve_goes_on_to_both_sides_from_a_fold_of_its_own(resonance):
     assert [status for status, _ in again.ends] == ["at bound", "at bound"]
     assert [p.kind for p in again.special_points] == ["LPC", "LPC"]
     assert [p["w"] for p in again.special_points] == pytest.approx([p["w"] for p in resonance.special_points], abs=1e-8)
+
+
+def test_a_response_begins_near_an_orbit_of_another_curve(resonance):
+    near = resonance.at(w=1.5)
+    assert len(near) == 3
+    for orbit in near:
+        again = mc.continue_response(duffing(), "g", (0.29, 0.31), start=orbit)
+        assert again.at(g=0.3)[0]["x.max"] == pytest.approx(orbit["x.max"], rel=1e-7)
+
+
+def test_a_response_of_a_model_begins_near_one_of_another():
+    soft, stiff = mc.Mechanism.from_xml("overcentre"), mc.Mechanism.from_xml("overcentre")
+    asked = {"parameter": "F.amplitude", "bounds": (4.0, 5.0), "forcing": {"F": mc.Harmonic(5.0)}, "direction": -1}
+    first = mc.continue_response(soft, **asked, start={"F": 30.0, "k_j": 1e4}, frequency=0.3)
+    other = mc.continue_response(stiff, **asked, start=first[0].orbit)
+    assert other["k_j"][0] == 1e4
+    assert other["frequency"][0] == pytest.approx(0.3)
+    assert other["theta_1.max"][0] == pytest.approx(first["theta_1.max"][0], rel=1e-7)
+    with pytest.raises(mc.MjcontError, match="has states of 12 numbers, vector field moves in 2"):
+        mc.continue_response(duffing(), "w", (0.8, 2.6), start=first[0])

@@ -23,9 +23,9 @@ def interrupting(after):
 def test_progress_counts_orbits_and_names_what_is_found():
     seen = []
     curve = mc.continue_cycles(circles()[0].point("HB1"), progress=lambda count, found: seen.append((count, found)))
-    counts = [c for c, found in seen if found is None]
+    counts = [c for c, found in seen if not found.kind]
     assert counts == list(range(1, len(counts) + 1))
-    (found,) = [found for _, found in seen if found is not None]
+    (found,) = [found for _, found in seen if found.kind]
     assert (found.kind, found.parameters["b1"]) == ("LPC", pytest.approx(-0.25, abs=1e-8))
     assert len(curve) >= len(counts)
 

@@ -82,7 +82,7 @@ def test_an_input_that_moves_nothing_is_drawn_all_the_same():
 def test_gain_and_phase_are_written(tmp_path):
     found = mc.transfer(mc.find_equilibrium(mass(tmp_path)), "F", "x", [0.5, 0.1])
     lines = found.to_csv(tmp_path / "bode.csv").read_text().splitlines()
-    assert lines[0] == "frequency [Hz],gain of x [m],phase of x [rad]"  # a control has no unit
+    assert lines[0] == "frequency [Hz],gain of x [m],phase of x [deg]"  # a control has no unit
     assert [float(line.split(",")[0]) for line in lines[1:]] == [0.1, 0.5]
 
 

@@ -11,7 +11,7 @@ from mjcont.paper import reproduce as module
 def here(monkeypatch):
     """Draw figures in this process: what resuming and reports do needs no processes, which take seconds to begin."""
 
-    def draw_all(todo, out, stamps, jobs):
+    def draw_all(todo, out, stamps, jobs, progress):
         for n in todo:
             module._draw(n, module._script(n), out, stamps[n])
             yield module._read(out, n)

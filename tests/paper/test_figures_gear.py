@@ -13,6 +13,7 @@ from functools import cache
 import numpy as np
 import pytest
 from problems.marks import long
+from problems.pictures import meeting, watched
 
 import mjcont as mc
 from mjcont.paper.reproduce import load_script, scripts_folder
@@ -168,21 +169,24 @@ def test_the_locus_of_the_gear_that_locks_leads_over_a_second_cusp_to_fp2():
     assert found.locus["F_ret"][other] == pytest.approx(450322.109, rel=1e-7)
 
 
-def findings_hold(figure, out):
-    findings = load_script(scripts_folder() / f"fig{figure}.py").main(out)
+def findings_hold(figure, out, monkeypatch):
+    script = load_script(scripts_folder() / f"fig{figure}.py")
+    figures = watched(monkeypatch, script)
+    findings = script.main(out)
     assert (out / f"fig{figure}.png").stat().st_size > 10_000
+    assert [meeting(f) for f in figures] == [[]]
     assert [f.claim for f in findings if not f.holds] == []
     return len(findings)
 
 
 @pytest.mark.long
-def test_findings_of_figure_14(tmp_path):
-    assert findings_hold("14", tmp_path) == 7
+def test_findings_of_figure_14(tmp_path, monkeypatch):
+    assert findings_hold("14", tmp_path, monkeypatch) == 7
 
 
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("figure", "count"), [("06", 1), ("09", 4), ("10", 10), ("11", 8), ("12", 10), ("13", 7), ("15", 12)]
 )
-def test_findings_of_the_other_figures(figure, count, tmp_path):
-    assert findings_hold(figure, tmp_path) == count
+def test_findings_of_the_other_figures(figure, count, tmp_path, monkeypatch):
+    assert findings_hold(figure, tmp_path, monkeypatch) == count

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from problems import reference
 from problems.marks import long
+from problems.pictures import meeting, watched
 from problems.reference import PAPER, PAPER_FOLDS
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
@@ -50,10 +51,18 @@ def script(figure):
         long(8, [True] * 5),
     ],
 )
-def test_findings_of_the_mechanism_figures(figure, holding, tmp_path):
+def test_findings_of_the_mechanism_figures(figure, holding, tmp_path, monkeypatch):
+    figures = watched(monkeypatch, script(figure))
     findings = script(figure).main(tmp_path)
     assert [f.holds for f in findings] == holding
     assert (tmp_path / f"fig{figure:02d}.png").stat().st_size > 10_000
+    assert [meeting(f) for f in figures] == [[]]
+
+
+def test_no_texts_meet_in_figure_3(tmp_path, monkeypatch):
+    figures = watched(monkeypatch, script(3))
+    script(3).main(tmp_path)
+    assert [meeting(f) for f in figures] == [[]]
 
 
 @pytest.mark.parametrize("figure", [2, 3, 4, 5])

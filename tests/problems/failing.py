@@ -10,6 +10,7 @@ import numpy as np
 from scipy import sparse
 
 import mjcont as mc
+import mjcont.numerics.points.passage as passages
 from mjcont.curves.walkers import equilibrium_detectors
 from mjcont.numerics.equations import (
     adjoint,
@@ -331,6 +332,9 @@ CASES = {
     "normalform.pitchfork_coefficient": lambda b: normalform.pitchfork_coefficient(b.local, b.x),
     "normalform.crossing": lambda b: normalform.crossing(b.local, np.zeros((b.n + 1, 2)), b.x, 1.0),
     "normalform.FirstOrder": lambda b: normalform.FirstOrder(b.problem, b.x, b.values).second(b.v, 1j * b.v),
+    "passage.passage": lambda b: passages.passage(b.local, b.v, b.v, b.v),
+    "passage.runaway": lambda b: [passages.runaway(m) for m in (math.nan, math.inf, -1.0)],
+    "passage.Passage": lambda b: passages.Passage(*4 * [{"constant": 1.0}.get(b.kind, math.nan)]).rate(math.nan),
     "spanning.spanning_tree": lambda b: spanning.spanning_tree(np.zeros((0, 2)), 3),
     "spanning.heights": lambda b: spanning.heights(np.zeros(0, dtype=int)),
     "sphere.ways_through": lambda b: sphere.ways_through(b.system, b.x, b.system.start_y(), 0, 1e-2),

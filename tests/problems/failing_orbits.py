@@ -14,6 +14,7 @@ from mjcont.numerics.equations.newton import Corrected
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.orbits import (
+    conserved,
     defining,
     detectors,
     fast,
@@ -25,6 +26,8 @@ from mjcont.numerics.orbits import (
     mesh,
     passing,
     points,
+    quadrature,
+    resonances,
     switch,
 )
 from mjcont.numerics.orbits.flow import Flow, Rates
@@ -61,6 +64,27 @@ class BadFlow(Flow):
 
     def period(self, values):
         return 2.0 * math.pi
+
+
+class BadConservingFlow(BadFlow, conserved.ConservativeFlow):
+    """The same, of which an energy is said to be kept."""
+
+    chosen_by = conserved.ENERGY
+
+    def values(self, given=None):
+        return {**self.field.values({k: v for k, v in (given or {}).items() if k != "energy"}), "energy": 1.0}
+
+    def energies(self, states, values):
+        return self.rates(states, None, values)[:, 0]
+
+    def energy_slopes(self, states, values):
+        return np.full(states.shape, ENTRIES.get(self.kind, 0.0))
+
+    def energy_rate(self, state, values, name):
+        return ENTRIES.get(self.kind, 0.0)
+
+    def unfolding(self, states, values):
+        return self.rates(states, None, values)
 
 
 @dataclass(frozen=True)
@@ -114,6 +138,46 @@ class BadMotion:
     def matrix(self):
         return self.system.jacobian(self.local, self.y)
 
+    @cached_property
+    def keeping(self):
+        """The equations of its orbits, as if an energy were kept."""
+        flow = BadConservingFlow(self.kind, self.order, False)
+        del flow.values  # those of the class, with the energy
+        return conserved.orbits_on(
+            flow, self.path.scheme, self.path.mesh, self.path.s, self.shift, np.ones(flow.d), self.path.period
+        )
+
+    def kept_multipliers(self):
+        orbits, s = self.keeping, self.path.s[0]
+        linear = orbits.linearize(orbits.joined(self.path), orbits.flow.values(), ("p", "energy"))
+        assert linear.jac.shape == (orbits.n, orbits.n)
+        m = conserved.own_multipliers(orbits, linear.blocks, self.path.period, s, s)
+        assert len(m.values) == len(m.own) + 2 == orbits.flow.d
+
+    @property
+    def kept_system(self):
+        return System(self.keeping, self.keeping.flow.values(), [Free("p", -1.0, 1.0)])
+
+    @property
+    def kept(self):
+        system, x = self.kept_system, self.keeping.joined(self.path)
+        local = system.local(x, system.start_y())
+        tangent = np.append(np.zeros(self.keeping.n), 1.0)
+        return CurvePoint(x, system.start_y(), tangent, 0.0, local, system.jacobian(local, system.start_y()))
+
+    def look_at_kept(self, detector):
+        made, old, new = detector(self.kept_system, self.settings), self.kept, self.kept
+        new.s = 1e-6
+        made.crossed(old, new)
+        made.locate(old, new, [])
+
+    def in_quadrature(self):
+        made = quadrature.InQuadrature(
+            lambda u, tau, p: self.flow.rates(u, tau, p)[:, 0], lambda tau, p: 2.0 * np.pi * tau, 1.0
+        )
+        self.condition(made)
+        assert made.gradient(self.local, self.system, self.y).shape == (1, self.orbits.n + 1)
+
     @property
     def blocks(self):
         return self.local.linearization.blocks
@@ -154,6 +218,9 @@ def walk(bad):
 
 BARE = np.full((3, 2, 2), math.nan)
 CASES = {
+    "conserved.orbits_on": lambda b: b.keeping,
+    "conserved.ConservedOrbits": lambda b: b.keeping.residual(b.keeping.joined(b.path), b.keeping.flow.values()),
+    "conserved.own_multipliers": BadMotion.kept_multipliers,
     "collocation.Orbits": lambda b: b.orbits.residual(b.x, b.values),
     "collocation.OrbitLinearization": lambda b: b.local.jac,
     "defining.orbits_of": lambda b: defining.orbits_of(b.local),
@@ -204,13 +271,22 @@ CASES = {
     "points.multipliers_at": lambda b: points.multipliers_at(b.point()),
     "points.error_at": lambda b: points.error_at(b.point()),
     "points.unstable": lambda b: points.unstable(points.multipliers_at(b.point())),
+    "quadrature.InQuadrature": BadMotion.in_quadrature,
+    "resonances.angles": lambda b: resonances.angles(b.kept),
+    "resonances.energy_slope": lambda b: resonances.energy_slope(b.kept),
+    "resonances.EnergyTurns": lambda b: b.look_at_kept(resonances.EnergyTurns),
+    "resonances.InternalResonance": lambda b: b.look_at_kept(resonances.InternalResonance),
+    "switch.departures": lambda b: switch.departures(
+        b.flow, b.path, b.shift, b.system, b.x, b.y, 3, b.settings
+    ),
     "switch.doubled": lambda b: switch.doubled(b.flow, b.path, b.shift, b.system, b.x, b.y),
     "switch.crossing": lambda b: switch.crossing(b.system, b.x, b.y, b.point().tangent),
     "switch.system_at": lambda b: switch.system_at(b.flow, b.path, b.shift, b.values, tuple(b.system.free)),
 }
 # records, and bases of what stands above
 PLAIN = {
-    "collocation.Blocks", "defining.Multiplier", "fast.FastModes", "floquet.Multipliers", "flow.Rates", "flow.Flow",
+    "collocation.Blocks", "conserved.ConservativeFlow", "defining.Multiplier", "fast.FastModes", "floquet.Multipliers",
+    "flow.Rates", "flow.Flow",
     "follow.MeshSettings", "scheme.Scheme", "switch.Departure",
 }  # fmt: skip
 BAD = [BadMotion(kind, order, forced) for kind in FIELDS for order in (1, 2) for forced in (False, True)]

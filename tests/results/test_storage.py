@@ -147,8 +147,8 @@ def test_columns_of_a_loaded_branch_are_read_only_like_those_of_a_computed_one(b
 
 def test_a_file_says_its_units_to_other_programs(saved):
     with h5py.File(saved) as f:
-        assert f["columns/F"].attrs["unit"] == "N"
-        assert f["columns/theta_1"].attrs["unit"] == "rad"
+        assert f["columns/F"].attrs["unit"] == b"N"
+        assert f["columns/theta_1"].attrs["unit"] == b"rad"
         assert f["model"].asstr()[()].lstrip().startswith("<mujoco")
 
 

@@ -34,6 +34,11 @@ forcing = { P = { amplitude = 0.1, phase = "90 deg" } }
 start = { P = 1.0 }
 settings = { max_points = 3, mesh = 5 }
 
+[[histories]]
+name = "on"
+from = "shaken:last"
+samples = 200
+
 [[plot]]
 file = "flutter.png"
 branches = ["rest", "flutter"]
@@ -61,14 +66,22 @@ def done(tmp_path_factory):
 
 
 def test_a_study_stores_its_orbits_and_pictures(done):
-    _, (_, flutter, shaken), out = done
+    _, (_, flutter, shaken, _), out = done
     names = sorted(p.name for p in out.iterdir())
-    assert names == ["flutter.csv", "flutter.h5", "flutter.png", "rest.h5", "shaken.h5", "shaken.png"]
+    assert names == ["flutter.csv", "flutter.h5", "flutter.png", "on.h5", "rest.h5", "shaken.h5", "shaken.png"]
     loaded = mc.load(out / "flutter.h5")
     assert (loaded.kind, len(loaded)) == ("cycles", len(flutter))
     assert np.array_equal(loaded[1].orbit.states, flutter[1].orbit.states)
     assert shaken.forcing["inputs"]["P"] == [0.1, pytest.approx(np.pi / 2), 1]
     assert shaken["frequency"][0] == pytest.approx(0.1)
+
+
+def test_a_history_goes_on_from_an_orbit_for_ten_periods(done):
+    _, (_, _, shaken, motion), _ = done
+    orbit = shaken[-1].orbit
+    assert motion["time"][-1] == pytest.approx(10.0 * orbit.period, rel=1e-2)
+    assert motion["q1"][0] == pytest.approx(orbit["q1"][0], abs=1e-9)
+    assert motion["q1"].max() == pytest.approx(orbit["q1"].max(), rel=0.05)
 
 
 def test_a_summary_says_what_would_be_computed(done):

@@ -1,14 +1,16 @@
 """Study files: what they compute, and that every mistake in one is a single line naming the file, key and choices."""
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
 
 import mjcont as mc
-from mjcont.commands.progress import Table
-from mjcont.studies.reporter import Reporter
+from mjcont.curves.collect import Found
+from mjcont.studies.reporter import Range, Reporter
 from mjcont.studies.schema import quantity
 from mjcont.studies.study import load_study, run_study
 
@@ -119,14 +121,21 @@ def test_an_interrupt_stores_the_points_so_far_and_ends_the_run(tmp_path: Path) 
     assert len(stored) == len(branch) == 8
 
 
-def test_the_table_has_one_line_for_each_special_point(tmp_path: Path) -> None:
-    lines: list[str] = []
-    run_study(load_study(write(tmp_path, GOOD + PLOT)), tmp_path, Table(lines.append))
-    table = [line.split() for line in lines if line.startswith("  LP")]
-    assert [row[0] for row in table] == ["LP", "LP"]
-    assert [float(row[2]) for row in table] == pytest.approx([15.162603, 24.077406], abs=1e-5)
-    assert [float(row[3]) for row in table] == pytest.approx([37.3299335, -37.6856327], abs=1e-5)
-    assert lines[1].split() == ["kind", "points", "F", "[N]", "theta_1", "[deg]", *lines[1].split()[6:]]
+def test_a_run_tells_each_result_and_where_its_curve_is(tmp_path: Path) -> None:
+    class Listening(Reporter):
+        started_: ClassVar[list[object]] = []
+        found: ClassVar[list[Found]] = []
+
+        def started(self, name: str, task: str, place: tuple[int, int], ranges: Mapping[str, Range]) -> None:
+            self.started_.append((name, place, ranges))
+
+        def point(self, count: int, found: Found) -> None:
+            self.found.append(found)
+
+    run_study(load_study(write(tmp_path, GOOD + PLOT)), tmp_path, Listening())
+    assert Listening.started_ == [("equilibria", (1, 1), {"F": Range(-50.0, 50.0, "N")})]
+    assert all(-50.0 <= f.parameters["F"] <= 50.0 for f in Listening.found)
+    assert [f.kind for f in Listening.found if f.kind] == ["LP", "LP"]
 
 
 SLOW = ("overcentre_cycle.toml", "overcentre_design.toml", "overcentre_shaken.toml")
@@ -193,7 +202,7 @@ MISTAKES = {
         ["plot[0].y: unknown column 'theta'", "theta_1"],
     ),
     "plot without column": (GOOD + PLOT.replace('x = "F"\n', ""), ["plot[0].x: this key is missing"]),
-    "plot in a folder": (GOOD + PLOT.replace("fig", "a/fig"), ["plot[0].file: 'a/fig.png' must be a file name"]),
+    "plot in a folder": (GOOD + PLOT.replace("fig", "a/fig"), ["plot[0].file: 'a/fig.png' names a folder"]),
     "plot of unknown format": (GOOD + PLOT.replace("png", "bmp"), ["plot[0].file", ".png, .pdf, .svg"]),
     "plot files twice": (GOOD + PLOT + PLOT, ["plot[1].file: 'fig.png' is the file of plot[0] already"]),
     "declared twice": (GOOD + '[declare.k_j]\ntargets = ["joint:x_1.stiffness"]\n', ["declare.k_j: the model has"]),

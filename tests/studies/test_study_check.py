@@ -12,8 +12,9 @@ import pytest
 from mjcont.commands.cli import main
 from mjcont.studies.keys import Context, read
 from mjcont.studies.plans import TOP, check_study
+from mjcont.studies.plots import PLOT
 from mjcont.studies.schema import Table
-from mjcont.studies.tables import KINDS, PLOT, known
+from mjcont.studies.tables import KINDS, known
 
 ROOT = Path(__file__).parent.parent.parent
 BASE = """

@@ -10,6 +10,7 @@ import pytest
 
 import mjcont as mc
 from mjcont.commands.cli import main
+from mjcont.commands.progress import Told
 from mjcont.studies.reporter import Reporter
 from mjcont.studies.study import load_study, run_study
 from mjcont.studies.waveforms import Shape
@@ -244,11 +245,11 @@ def test_a_point_that_a_result_turns_out_not_to_have_is_named_and_what_came_befo
 def test_an_interrupted_search_is_stored_and_ends_the_run(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def impatient(self: Reporter, count: int, special: object) -> None:
+    def impatient(self: Told, count: int, special: object) -> None:
         if count >= 20:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr(Reporter, "point", impatient)
+    monkeypatch.setattr(Told, "point", impatient)
     path = tmp_path / "study.toml"
     path.write_text(
         TRUSS + '[[searches]]\nname = "found"\n[[diagrams]]\nname = "ways"\nparameter = "P"\nfrom = "found"\n'

@@ -50,3 +50,58 @@ def test_shipped_studies_are_found_by_name_from_anywhere(tmp_path, monkeypatch, 
 def test_a_study_that_is_not_there_suggests_shipped_ones():
     with pytest.raises(mc.StudyError, match=r"Did you mean overcentre.* Studies that ship with mjcont: .*latch"):
         load_study("overcenter")
+
+
+PLOT = """
+model = "overcentre"
+[[branch]]
+name = "a"
+parameter = "F"
+[[plot]]
+file = "FILE"
+x = "F"
+y = "theta_1"
+"""
+
+
+@pytest.mark.parametrize(
+    ("file", "said"),
+    [
+        ("fig 1.png", "'fig 1.png' has a space: expected a file name"),
+        ("fig(1).png", "has '(', ')': expected"),
+        ("out/fig.png", "names a folder, which `mjcont run -o` says"),
+        ("fig.doc", "has another ending: expected a file name of letters, digits, "),
+        ("fig", "has another ending"),
+        (".png", "begins with no letter or digit"),
+    ],
+)
+def test_what_is_wrong_with_the_name_of_a_picture_is_told(tmp_path, file, said):
+    path = tmp_path / "study.toml"
+    path.write_text(PLOT.replace("FILE", file), encoding="utf-8")
+    _, (line,) = check_study(path)
+    assert "plot[0].file: " in line
+    assert said in line
+
+
+@pytest.mark.parametrize(
+    ("asked", "meant"),
+    [
+        (lambda m, b: b.point("lp1"), "unknown special point 'lp1'. Did you mean LP1"),
+        (lambda m, b: m.parameter("f"), "unknown parameter 'f'. Did you mean F?"),
+        (lambda m, b: m.parameter("K-J"), "unknown parameter 'K-J'. Did you mean k_j"),
+        (lambda m, b: b["Theta 1"], "unknown column 'Theta 1'. Did you mean theta_1"),
+        (lambda m, b: mc.Mechanism.from_xml("overcenter"), "Did you mean overcentre"),
+    ],
+)
+def test_case_and_spelling_lead_to_what_was_meant(asked, meant):
+    mechanism = mc.Mechanism.from_xml("overcentre")
+    branch = mc.continue_equilibria(mechanism, "F", (0.0, 50.0), start={"F": 50.0})
+    with pytest.raises(mc.MjcontError) as error:
+        asked(mechanism, branch)
+    assert meant in str(error.value)
+
+
+def test_an_empty_model_says_that_it_is_empty(tmp_path):
+    (tmp_path / "model.xml").write_text("\n", encoding="utf-8")
+    with pytest.raises(mc.ModelError, match=r"model '.*model.xml': the file is empty"):
+        mc.Mechanism.from_xml(tmp_path / "model.xml")

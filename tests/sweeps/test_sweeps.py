@@ -15,6 +15,7 @@ from problems.variants import STUDY, records, same, study
 
 import mjcont as mc
 from mjcont.commands.cli import main
+from mjcont.drawing.axes import readable
 from mjcont.numerics.search.spanning import heights, spanning_tree
 from mjcont.sweeps.designs import make_design
 from mjcont.sweeps.engine import Crew, Run, Tree
@@ -147,7 +148,7 @@ def test_a_table_is_read_as_it_was_stored_and_drawn(tmp_path: Path) -> None:
     assert stored.study == STUDY
     axes = table.plot("fold.theta_1")
     assert sum(patch.get_height() for patch in axes.patches) == 12
-    assert axes.get_xlabel() == "fold.theta_1 [deg]"
+    assert axes.get_xlabel() == f"{readable('fold.theta_1')} [deg]"
     assert table.plot("fold.F", "k_j").collections[0].get_offsets().shape == (12, 2)
 
 

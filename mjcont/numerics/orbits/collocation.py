@@ -121,8 +121,12 @@ class Orbits(Equations):
         beside = np.concatenate([share[:1], np.minimum(share[1:], share[:-1]), share[-1:]])
         ends = self.sizes / np.sqrt(beside)[:, None]
         inside = np.broadcast_to(self.sizes[: self.flow.c] / np.sqrt(share)[:, None, None], self.w_shape)
-        last = [self.period_scale] if self.own_period else []
-        return np.concatenate([ends.ravel(), inside.ravel(), last])
+        return np.concatenate([ends.ravel(), inside.ravel(), self.last_scales])
+
+    @property
+    def last_scales(self) -> list[float]:
+        """Scales of the unknowns behind those of the orbit: of its period where that is free."""
+        return [self.period_scale] if self.own_period else []
 
     @property
     def w_shape(self) -> tuple[int, int, int]:

@@ -70,8 +70,7 @@ def _null_pair(matrix: Any) -> tuple[Array, Array]:
 def _sizes(orbits: Orbits) -> Array:
     """Return the typical size of each unknown, (n,)."""
     inside = np.tile(orbits.sizes[: orbits.flow.c], orbits.intervals * orbits.m)
-    last = [orbits.period_scale] if orbits.own_period else []
-    return np.concatenate([np.tile(orbits.sizes, orbits.intervals + 1), inside, last])
+    return np.concatenate([np.tile(orbits.sizes, orbits.intervals + 1), inside, orbits.last_scales])
 
 
 class Multiplier(Condition):
@@ -90,7 +89,7 @@ class Multiplier(Condition):
     def _matrix(self, local: Local, aux: Array) -> Any:
         """Return K over scaled unknowns: without the period and its equation, s_N = mu s_0 at the ends."""
         orbits, matrix = orbits_of(local), local.jac
-        size = orbits.n - orbits.own_period
+        size = orbits.ends + orbits.inside
         first, d = orbits.inside + orbits.intervals * orbits.flow.d, orbits.flow.d
         mu = self._mu(aux)
         at = np.arange(d)

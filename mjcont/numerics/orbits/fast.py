@@ -36,7 +36,7 @@ from mjcont.numerics.orbits.scheme import GAUSS, RADAU
 _FAST = {RADAU: 1.0, GAUSS: 3.0}
 _EVERYWHERE, _GAP = 0.3, 1.3
 # |lambda| h of a step of its own, how many of these are taken in all, and how many are multiplied at once
-_STEP, _MOST = 1.0, 3000
+_STEP, _MOST = 2.0, 1500
 _TOGETHER = 4
 _ROOT = np.sqrt(15.0)
 

@@ -30,23 +30,30 @@ class Multipliers:
     values : (d,) complex, the largest first.
     resolved : (d,) bool, whether they are those of the collocation; the others are adiabatic.
     trivial : index of the multiplier 1 of a free period, -1 where there is none.
+    times : how often it is there, one after the other: twice where the motion keeps an energy.
     """
 
     values: Array
     resolved: Array
     trivial: int
+    times: int = 1
 
     @property
     def own(self) -> Array:
         """Those that say whether the orbit is stable: without the trivial one."""
-        found: Array = self.values[np.arange(len(self.values)) != self.trivial]
+        found: Array = self.values[self._others]
+        return found
+
+    @property
+    def _others(self) -> Array:
+        at = np.arange(len(self.values))
+        found: Array = (at < self.trivial) | (at >= self.trivial + self.times) if self.trivial >= 0 else at >= 0
         return found
 
     @property
     def tested(self) -> Array:
         """The resolved ones among these: special points are told by them."""
-        keep = self.resolved & (np.arange(len(self.values)) != self.trivial)
-        found: Array = self.values[keep]
+        found: Array = self.values[self.resolved & self._others]
         return found
 
 

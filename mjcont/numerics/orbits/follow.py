@@ -19,6 +19,7 @@ from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.collocation import Orbits
+from mjcont.numerics.orbits.conserved import orbits_on
 from mjcont.numerics.orbits.flow import Flow
 from mjcont.numerics.orbits.linger import lingering, shrunk_to
 from mjcont.numerics.orbits.mesh import count_for, equidistributed, error_of
@@ -40,6 +41,10 @@ _MOST_MESHES = 8
 _BETTER = 0.5
 # an orbit smaller than this, relative to its sizes, or one that turned to its opposite, has shrunk to a point
 _SMALL, _OPPOSITE = 1e-5, -0.5
+# places at which an orbit's periods are compared
+_COMPARED = 200
+# where they are this much alike, relative to sizes, a walk that stands still has arrived where they are one
+_ALIKE = 0.1
 # the phase condition is renewed where the orbit's velocity has turned from the reference's by more than this cosine
 _STALE = 0.8
 # orbits before a step from which derivatives are extrapolated
@@ -82,7 +87,7 @@ def laid(flow: Flow, path: Path, shift: Array) -> Orbits:
     if flow.order == 2:
         scale[flow.c :] = scale[: flow.c] * 2.0 * math.pi / path.period
     sizes = np.maximum(np.sqrt(path.lengths @ squares), scale)
-    return Orbits(flow, path.scheme, path.mesh, path.slopes(path.mesh), shift, sizes, path.period)
+    return orbits_on(flow, path.scheme, path.mesh, path.slopes(path.mesh), shift, sizes, path.period)
 
 
 def carried_tangent(old: System, point: CurvePoint, new: Orbits) -> Array:
@@ -155,6 +160,7 @@ class Follower:
     detectors : what makes the detectors of a curve on a mesh.
     held : from plain equations and a point to those of a curve of special orbits on another mesh.
     end_at : kinds of points that end the curve.
+    periods : how many periods of others its orbits have where it begins; it ends where they are alike again.
     """
 
     settings: Settings
@@ -163,6 +169,7 @@ class Follower:
     detectors: Callable[[System, Settings], list[Detector]] = cycle_detectors
     held: Callable[[System, Array, Array], System] | None = None
     end_at: frozenset[str] = frozenset()
+    periods: int = 1
     _wants: str = field(default="", init=False)
     _ending: End | None = field(default=None, init=False)
     _before: CurvePoint | None = field(default=None, init=False)
@@ -202,7 +209,7 @@ class Follower:
                     yield item
             assert end is not None
             if not self._wants:
-                yield self._ended(end, orbits_at(point))
+                yield self._ended(system, end, point)
                 return
             again = self._resolved(system, point)
             if isinstance(again, End):
@@ -211,11 +218,20 @@ class Follower:
             system, point = again
             yield point
 
-    def _ended(self, end: End, orbits: Orbits) -> End:
+    def _ended(self, system: System, end: End, point: CurvePoint) -> End:
         """Return the end that was noticed on the way, or how the walk says it: at a stop where one is named."""
-        if self._ending is None and end.status is Status.STEP_TOO_SMALL and orbits.flow.touches:
-            return End(Status.CORNER, f"{orbits.flow.touches}: its motion is followed no farther")
-        return self._ending or end
+        touches = orbits_at(point).flow.touches
+        if self._ending is not None or end.status is not Status.STEP_TOO_SMALL:
+            return self._ending or end
+        if touches:
+            return End(Status.CORNER, f"{touches}: its motion is followed no farther")
+        if self.periods > 1 and float(np.abs(_apart(point, self.periods)).max()) < _ALIKE:
+            return self._alike(system, point)
+        return end
+
+    def _alike(self, system: System, point: CurvePoint) -> End:
+        where = f"the {self.periods} periods of an orbit become alike near {system.where(point.y)}"
+        return End(Status.AT_REST, f"{where}: it is one of a single period there")
 
     def _look(self, system: System, p: CurvePoint, first: CurvePoint, longest: float) -> str | None:
         """Return why a piece ends at a point, None where it goes on."""
@@ -228,6 +244,8 @@ class Follower:
         elif before is not None and _shrunk(before, p):
             at_end = shrunk_to(orbits_at(p), path_at(p), p.local.values, self.held is not None)
             self._ending = End(Status.AT_REST, at_end)
+        elif before is not None and self.periods > 1 and _merged(before, p, self.periods):
+            self._ending = self._alike(system, p)
         elif orbits_at(p).own_period and (_period(p) > longest or _blurred(p, longest / self.meshes.period_max)):
             self._ending = End(Status.PERIOD, _without_bound(p))
         elif error_at(p) > self.meshes.tol and not self.meshes.fixed:
@@ -309,6 +327,20 @@ def _shrunk(before: CurvePoint, after: CurvePoint) -> bool:
     return bool(np.abs(b).max() < _SMALL) or float((a * b).sum()) < _OPPOSITE * sizes
 
 
+def _apart(p: CurvePoint, periods: int) -> Array:
+    """Return how a part of an orbit differs from the next one, relative to the states' sizes."""
+    tau, path = (1.0 - 1.0 / periods) * np.linspace(0.0, 1.0, _COMPARED), path_at(p)
+    found: Array = (path.states(tau + 1.0 / periods) - path.states(tau)) / orbits_at(p).sizes
+    return found
+
+
+def _merged(before: CurvePoint, after: CurvePoint, periods: int) -> bool:
+    """Whether what tells an orbit's periods apart vanished: it comes out opposite to what it went in."""
+    a, b = _apart(before, periods), _apart(after, periods)
+    sizes = float(np.linalg.norm(a) * np.linalg.norm(b))
+    return bool(np.abs(b).max() < _SMALL) or float((a * b).sum()) < _OPPOSITE * sizes
+
+
 def _stale(p: CurvePoint) -> bool:
     """Whether the reference of the phase condition no longer tells the phase."""
     orbits = orbits_at(p)
@@ -331,6 +363,7 @@ def trace_orbits(
                 result.end = item
                 if item.status is Status.AT_REST and len(result.points) > 1:  # the orbit beyond is one seen before
                     result.points.pop()
+                    result.special = [e for e in result.special if e.point.s <= result.points[-1].s]
             elif isinstance(item, Located):
                 result.special.append(item)
             elif not isinstance(item, Neutral):

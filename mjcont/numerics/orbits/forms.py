@@ -109,7 +109,7 @@ def _side(orbits: Orbits, v: Array, w: Array, mu: complex) -> complex:
 
 def _turned(local: Local, orbits: Orbits, mu: complex) -> Any:
     """Return K(mu) over scaled unknowns, without the period and its equation."""
-    size, d = orbits.n - orbits.own_period, orbits.flow.d
+    size, d = orbits.ends + orbits.inside, orbits.flow.d
     first, at = orbits.inside + orbits.intervals * d, np.arange(d)
     change = sparse.csc_matrix(((1.0 - mu) * orbits.state_scale[:d], (first + at, at)), shape=(size, size))
     return (local.jac[:size, :size] + change).tocsc()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -91,11 +92,13 @@ class Path:
         w = h * self.rates(points).reshape(len(lengths), self.scheme.degree, self.c)
         return Path(self.scheme, self.order, mesh, self.states(mesh), w, self.period)
 
-    def repeated(self, shift: Array, sign: float = 1.0) -> Path:
-        """Return the orbit twice, as one of twice the period; `shift` (d,) is what it gains in a period.
+    def repeated(self, shift: Array, factors: Sequence[complex] = (1.0, 1.0)) -> Path:
+        """Return the orbit several times over, as one of so many periods; `shift` (d,) is what it gains in one.
 
-        A deviation that changes its sign over a period has `sign` -1.
+        A deviation may have a factor of its own in each, such as -1 where it changes its sign over a period.
         """
-        mesh = np.concatenate([0.5 * self.mesh, 0.5 + 0.5 * self.mesh[1:]])
-        s = np.concatenate([self.s, sign * self.s[1:] + shift])
-        return Path(self.scheme, self.order, mesh, s, np.concatenate([self.w, sign * self.w]), 2.0 * self.period)
+        times = len(factors)
+        mesh = np.concatenate([self.mesh[:1], *((j + self.mesh[1:]) / times for j in range(times))])
+        s = np.concatenate([factors[0] * self.s[:1], *(f * self.s[1:] + j * shift for j, f in enumerate(factors))])
+        w = np.concatenate([f * self.w for f in factors])
+        return Path(self.scheme, self.order, mesh, s, w, times * self.period)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mjcont.numerics.orbits.collocation import OrbitLinearization, Orbits
+from mjcont.numerics.orbits.conserved import ConservedOrbits, own_multipliers
 from mjcont.numerics.orbits.floquet import Multipliers, multipliers
 from mjcont.numerics.orbits.mesh import error_of
 from mjcont.numerics.orbits.path import Path
@@ -36,6 +37,9 @@ def multipliers_at(point: CurvePoint) -> Multipliers:
         if orbits.own_period:  # from the flow: the polynomial's own slope is of lower order at its ends
             rates = orbits.flow.rates(path.s[:1], np.zeros(1), point.local.values)[0]
             velocity = np.concatenate([velocity, rates]) if path.order == 2 else rates
+        if isinstance(orbits, ConservedOrbits):
+            slope = orbits.flow.energy_slopes(path.s[:1], point.local.values)[0]
+            return own_multipliers(orbits, linear.blocks, path.period, velocity, slope)
         return multipliers(orbits, linear.blocks, path.period, velocity)
 
     return MULTIPLIERS.of(point, find)

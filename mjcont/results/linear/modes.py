@@ -3,29 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.problem import Array
-from mjcont.outside import csvfiles
 from mjcont.results.histories import History
 from mjcont.results.model import Model, provenance
 from mjcont.results.points import Column, Point
-from mjcont.results.text import table
+from mjcont.results.text import Cells, Shown, Tabular, table
 
 OSCILLATES, DECAYS, GROWS, FLUTTERS, NEUTRAL = "oscillates", "decays", "grows", "flutters", "neutral"
 # of a model's scale, the largest entry of a shape where it is shown
 _SHOWN = 0.2
 _REST = 1e-300
+# modes that are drawn without being named
+_DRAWN = 6
 
 
-@dataclass(frozen=True, slots=True)
-class Mode:
+@dataclass(frozen=True, slots=True, repr=False)
+class Mode(Shown):
     """One mode: x(t) = x0 + a Re(shape exp(s t)).
 
     Attributes
@@ -80,6 +82,19 @@ class Mode:
             return FLUTTERS if self.omega > 0 else GROWS
         return OSCILLATES if self.omega > 0 else DECAYS
 
+    def __str__(self) -> str:
+        """Return what the table says of it."""
+        rate = f"{self.frequency:.6g} Hz, damping ratio {self.damping_ratio:.4g}" if self.omega else \
+            f"{self.growth:.4g} 1/s"
+        return f"mode {self.number}: {rate}, {self.kind}; moves most: {', '.join(_largest(self))}"
+
+    def plot(self, *, plane: str | None = None) -> Any:
+        """Draw both ends of its swing over rest and return the figure; `animate` shows it moving."""
+        from mjcont.drawing.linear import draw_modes
+
+        return draw_modes([self], 1, plane)
+
+    @checked
     def displaced(self, phase: float = 0.0, amplitude: float | None = None) -> Array:
         """Return the state (nq,) at a phase in rad of the motion, the growth or decay left out.
 
@@ -95,6 +110,7 @@ class Mode:
             return float(_SHOWN / max(np.max(size / self.point.model.state_scale), _REST))
         return amplitude / max(float(np.max(size)), _REST)
 
+    @checked
     def history(self, samples: int = 65, amplitude: float | None = None) -> History:
         """Return one cycle as a time history: what a linear motion shows, its growth or decay left out.
 
@@ -117,8 +133,8 @@ class Mode:
                        model.name, model, provenance(model), values)
 
 
-@dataclass(frozen=True, slots=True)
-class Modes:
+@dataclass(frozen=True, slots=True, repr=False)
+class Modes(Tabular, Shown):
     """The modes of an equilibrium, slowest first.
 
     Attributes
@@ -144,10 +160,12 @@ class Modes:
         """Iterate over the modes."""
         return iter(self.modes)
 
+    @checked
     def __getitem__(self, index: int) -> Mode:
         """Return a mode, the slowest at index 0."""
         return self.modes[index]
 
+    @checked
     def mode(self, number: int) -> Mode:
         """Return a mode by its number, counted from 1.
 
@@ -180,15 +198,25 @@ class Modes:
         """Eigenvalues in 1/s, (m,) complex."""
         return np.array([m.eigenvalue for m in self.modes])
 
-    def to_csv(self, path: str | Path) -> Path:
-        """Write a row a mode: what the table says, and the shape's real and imaginary parts; SI and radians."""
-        names = coordinates(self.point.model)
-        head = ["mode", "kind", "frequency [Hz]", "omega [rad/s]", "natural omega [rad/s]", "damping ratio",
-                "growth [1/s]", *(f"{part} {n}" for n in names for part in ("re", "im"))]
-        rows = [[m.number, m.kind, m.frequency, m.omega, m.natural_omega, m.damping_ratio, m.growth,
-                 *(float(v) for z in m.shape for v in (z.real, z.imag))] for m in self.modes]
-        return csvfiles.write_table(path, head, rows)
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        yield "mode", "", [m.number for m in self]
+        yield "kind", "", [m.kind for m in self]
+        yield "frequency", "Hz", self.frequencies
+        yield "omega", "rad/s", [m.omega for m in self]
+        yield "natural omega", "rad/s", [m.natural_omega for m in self]
+        yield "damping ratio", "", self.damping_ratios
+        yield "growth", "1/s", [m.growth for m in self]
+        for name, entries in zip(coordinates(self.point.model), self.shapes.T, strict=True):
+            yield f"re {name}", "", entries.real
+            yield f"im {name}", "", entries.imag
 
+    def save(self, path: str | Path) -> Path:
+        """Write all of it to an HDF5 file (replacing it whole or not at all) and return the path."""
+        from mjcont.results.linear.files import save
+
+        return save(self, path)
+
+    @checked
     def plot(self, numbers: Sequence[int] | None = None, *, cols: int = 4, plane: str | None = None) -> Any:
         """Draw poses of some modes (default the first six) at both ends of their swing over rest; return the figure.
 
@@ -199,7 +227,7 @@ class Modes:
         """
         from mjcont.drawing.linear import draw_modes
 
-        return draw_modes(self, numbers, cols, plane)
+        return draw_modes([self.mode(n) for n in numbers] if numbers is not None else self.modes[:_DRAWN], cols, plane)
 
     def table(self, most: int | None = None) -> list[str]:
         """Return the table's lines, of the `most` slowest modes."""

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -12,12 +11,13 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.outside import csvfiles
 from mjcont.results.points import Point
+from mjcont.results.text import Cells, Shown, Tabular, to_xarray
+from mjcont.results.units import per
 
 
-@dataclass(frozen=True, slots=True)
-class Transfer:
+@dataclass(frozen=True, slots=True, repr=False)
+class Transfer(Tabular, Shown):
     """What observables do per unit of a parameter that swings: p + cos(w t) gives y + Re H exp(i w t), to first order.
 
     Attributes
@@ -61,18 +61,29 @@ class Transfer:
         k = int(np.nanargmax(gain)) if np.isfinite(gain).any() else 0
         return float(self.frequencies[k]), float(gain[k])
 
-    def to_csv(self, path: str | Path) -> Path:
-        """Write a row a frequency: gain and phase of every output; SI and radians."""
-        head = ["frequency [Hz]"]
-        for name in self.outputs:
-            head += [f"gain of {name} [{self._unit(name)}]", f"phase of {name} [rad]"]
-        columns = [c for name in self.outputs for c in (self.gain(name), self.phase(name))]
-        rows = [[float(f), *(float(c[i]) for c in columns)] for i, f in enumerate(self.frequencies)]
-        return csvfiles.write_table(path, head, rows)
+    def to_xarray(self) -> Any:
+        """Return the complex responses over frequency as an xarray Dataset, SI and radians, units in `attrs`.
 
-    def _unit(self, name: str) -> str:
-        top, bottom = self.units[name] or "1", self.units[self.input] or "1"
-        return top if bottom == "1" else f"{top}/({bottom})" if any(c in bottom for c in "/* ") else f"{top}/{bottom}"
+        Raises
+        ------
+        MjcontError
+            If xarray is not installed.
+        """
+        units = {n: per(self.units[n], self.units[self.input], False)[0] for n in self.outputs}
+        return to_xarray({"frequency": ("Hz", self.frequencies)}, {n: (units[n], self[n]) for n in self.outputs})
+
+    def _cells(self, degrees: bool) -> Iterable[Cells]:
+        yield "frequency", "Hz", self.frequencies
+        for name in self.outputs:
+            unit, factor = per(self.units[name], self.units[self.input], degrees)
+            yield f"gain of {name}", unit, factor * self.gain(name)
+            yield f"phase of {name}", "rad", self.phase(name)
+
+    def save(self, path: str | Path) -> Path:
+        """Write all of it to an HDF5 file (replacing it whole or not at all) and return the path."""
+        from mjcont.results.linear.files import save
+
+        return save(self, path)
 
     def plot(self, *, decibels: bool = False, degrees: bool = True) -> Any:
         """Draw gain and phase against frequency, dashed where the equilibrium is unstable; return the figure."""
@@ -87,7 +98,6 @@ class Transfer:
                  f"{self.frequencies[-1]:.6g} Hz, {self.input} swings; the equilibrium is {kind}"]
         for name in self.outputs:
             at, gain = self.peak(name)
-            shown = math.degrees(gain) if self.units[name] == "rad" else gain
-            unit = self._unit(name).replace("rad", "deg", 1) if self.units[name] == "rad" else self._unit(name)
-            lines.append(f"  {name}: largest {shown:.6g} {unit} at {at:.6g} Hz")
+            unit, factor = per(self.units[name], self.units[self.input])
+            lines.append(f"  {name}: largest {f'{factor * gain:.6g} {unit}'.rstrip()} at {at:.6g} Hz")
         return "\n".join([*lines, *(f"  note: {n}" for n in self.notes)])

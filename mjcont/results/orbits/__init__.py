@@ -4,11 +4,20 @@ An orbit is stable where every Floquet multiplier, the 1 of a free period aside,
 """
 
 from mjcont.results.orbits.charts import Chart
-from mjcont.results.orbits.curve import CYCLES, RESPONSES, CycleBranch, OrbitPoint, SpecialOrbit, point_of
+from mjcont.results.orbits.curve import (
+    BACKBONE,
+    CYCLES,
+    MODES,
+    RESPONSES,
+    CycleBranch,
+    OrbitPoint,
+    SpecialOrbit,
+    point_of,
+)
 from mjcont.results.orbits.orbit import Orbit, orbit_of
 from mjcont.results.orbits.readings import Reading, extremes, readings
 
 __all__ = [
-    "CYCLES", "RESPONSES", "Chart", "CycleBranch", "Orbit", "OrbitPoint", "Reading", "SpecialOrbit", "extremes",
-    "orbit_of", "point_of", "readings",
+    "BACKBONE", "CYCLES", "MODES", "RESPONSES", "Chart", "CycleBranch", "Orbit", "OrbitPoint", "Reading",
+    "SpecialOrbit", "extremes", "orbit_of", "point_of", "readings",
 ]

@@ -18,12 +18,12 @@ from mjcont.results.orbits.orbit import Orbit
 from mjcont.results.points import Point, SpecialPoint, show
 from mjcont.results.quantities import column_of
 
-CYCLES, RESPONSES = "cycles", "responses"
+CYCLES, RESPONSES, MODES, BACKBONE = "cycles", "responses", "modes", "backbone"
 # observables that a summary line shows
 _SHOWN = 3
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class OrbitPoint(Point):
     """A point of a curve of orbits: `eigenvalues` are its multipliers, `state` that at time zero.
 
@@ -37,7 +37,7 @@ class OrbitPoint(Point):
         return f"{self.stability} ({self.n_unstable} unstable): {_shown(self, [])}"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class SpecialOrbit(SpecialPoint):
     """A special point of a curve of orbits."""
 
@@ -60,8 +60,8 @@ def _shown(point: Point, names: list[str]) -> str:
 
 def point_of(orbit: Orbit, state: Array, stability: str, n_unstable: int) -> OrbitPoint:
     """Return an orbit as a point of a curve that it may be on."""
-    numbers = orbit.numbers()
-    units = {**orbit.units, **{n: unit_of(n, orbit.units) for n in numbers}}
+    numbers = {n: v for n, v in orbit.numbers().items() if n not in orbit.parameters}
+    units = {**{n: unit_of(n, orbit.units) for n in numbers}, **orbit.units}
     return OrbitPoint(
         orbit.parameters, numbers, state, orbit.multipliers, stability, n_unstable, orbit.problem, units, orbit
     )

@@ -34,9 +34,10 @@ import numpy as np
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.path import Path
 from mjcont.numerics.orbits.scheme import SCHEMES, scheme
+from mjcont.outside.hdf5text import Attributes
 from mjcont.results.branch import Branch
 from mjcont.results.branchfiles import read_branch, write_branch
-from mjcont.results.files import frozen, save_hdf5
+from mjcont.results.files import frozen, read_complex, save_hdf5
 from mjcont.results.model import Model
 from mjcont.results.orbits.charts import Chart
 from mjcont.results.orbits.curve import CycleBranch, with_orbits
@@ -55,10 +56,10 @@ def save(branch: CycleBranch, path: str | File) -> File:
 def write_cycles(branch: CycleBranch, f: h5py.Group) -> None:
     """Write a curve of orbits into a file or a group of one."""
     write_branch(branch, f)
-    f.attrs["forcing"] = json.dumps(branch.forcing)
+    Attributes(f)["forcing"] = json.dumps(branch.forcing)
     orbits, g = branch.orbits, f.create_group(GROUP)
     first = orbits[0]
-    g.attrs.update(
+    Attributes(g).update(
         scheme=first.path.scheme.name, degree=first.path.scheme.degree, order=first.path.order,
         names=json.dumps(list(first.reading.names)), units=json.dumps(list(first.reading.units)),
         activated=first.activated,
@@ -76,7 +77,7 @@ def write_cycles(branch: CycleBranch, f: h5py.Group) -> None:
                            np.zeros(first.path.s.shape[1]) for o in orbits])
     if first.chart is not None:
         chart = g.create_group("chart")
-        chart.attrs["joints"] = json.dumps(first.chart.joints)
+        Attributes(chart)["joints"] = json.dumps(first.chart.joints)
         chart["places"] = first.chart.places
         chart["reference"] = np.array([o.chart.reference for o in orbits if o.chart is not None])
 
@@ -84,8 +85,8 @@ def write_cycles(branch: CycleBranch, f: h5py.Group) -> None:
 def read_cycles(f: h5py.File, problem: Model | None) -> CycleBranch:
     """Return the curve of orbits in a file."""
     branch = read_branch(f, problem)
-    multipliers = [frozen(row) for row in f["eigenvalues/real"][()] + 1j * f["eigenvalues/imag"][()]]
-    forcing = json.loads(f.attrs["forcing"])
+    multipliers = [frozen(row) for row in read_complex(f["eigenvalues"])]
+    forcing = json.loads(Attributes(f)["forcing"])
     orbits = _read_orbits(f[GROUP], branch, multipliers, forcing)
     return with_orbits(replace(branch, spectra=Spectra(multipliers)), orbits, forcing)
 
@@ -98,14 +99,14 @@ def _read_orbits(g: h5py.Group, branch: Branch, multipliers: Sequence[Array], fo
     ValueError
         If arrays do not fit each other.
     """
-    name, degree, order = str(g.attrs["scheme"]), int(g.attrs["degree"]), int(g.attrs["order"])
+    name, degree, order = str(Attributes(g)["scheme"]), int(Attributes(g)["degree"]), int(Attributes(g)["order"])
     if name not in SCHEMES or not 1 <= degree <= g["rates"].shape[1] or order not in (1, 2):
         raise ValueError("its orbits are polynomials of a kind that is not known")
-    activated = int(g.attrs.get("activated", 0))  # files of before had none
+    activated = int(Attributes(g).get("activated", 0))  # files of before had none
     if activated and (order != 1 or not 0 < activated < g["states"].shape[1]):
         raise ValueError("its orbits have activations that do not fit their states")
     rule = scheme(name, degree)
-    names, units = (tuple(json.loads(g.attrs[key])) for key in ("names", "units"))
+    names, units = (tuple(json.loads(Attributes(g)[key])) for key in ("names", "units"))
     a = {key: frozen(g[key][()]) for key in ("intervals", "period", "error", "mesh", "states", "rates", "points",
                                              "ends", "resolved", "trivial", "shift")}
     count, k = len(branch), int(a["intervals"].sum())
@@ -124,6 +125,7 @@ def _read_orbits(g: h5py.Group, branch: Branch, multipliers: Sequence[Array], fo
         found.append(Orbit(
             path, reading, branch.parameters_at(i), all_units, multipliers[i], a["resolved"][i].astype(bool),
             int(a["trivial"][i]), float(a["error"][i]), branch.name, branch.problem, a["shift"][i], forcing, activated,
+            float(branch["energy"][i]) if "conserves" in forcing else None,
             charts[i],
         ))
     return found
@@ -137,9 +139,10 @@ def _read_charts(g: h5py.Group, count: int, d: int) -> list[Chart]:
     ValueError
         If they do not fit.
     """
-    joints, places, reference = json.loads(g.attrs["joints"]), frozen(g["places"][()]), frozen(g["reference"][()])
+    joints = tuple(json.loads(Attributes(g)["joints"]))
+    places, reference = (frozen(g[k][()]) for k in ("places", "reference"))
     fits = places.shape == (len(joints), 2) and reference.shape == (count, len(joints), 4)
     highest = d // 2 + len(joints) - 4, d // 2 - 3
     if not fits or (places < 0).any() or (places > highest).any() or not np.isfinite(reference).all():
         raise ValueError("the charts of its orbits do not fit their states")
-    return [Chart(tuple(joints), places, row) for row in reference]
+    return [Chart(joints, places, row) for row in reference]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.orbits.path import Path
@@ -17,13 +18,14 @@ from mjcont.results.orbits.charts import Chart
 from mjcont.results.orbits.readings import Reading, along, readings
 from mjcont.results.points import Column
 from mjcont.results.quantities import column_of
+from mjcont.results.text import Shown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Orbit:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Orbit(Shown):
     """One period of a periodic motion.
 
     Attributes
@@ -40,6 +42,7 @@ class Orbit:
     shift : what coordinates gain in a period, (d,): zero but for running orbits.
     forcing : what drives it, as `CycleBranch.forcing`.
     activated : how many of a state's last entries are activations of actuators.
+    energy : of a motion that keeps it, beyond that at rest; None of others.
     chart : what the path's coordinates are where a mechanism has ball or free joints.
     """
 
@@ -56,6 +59,7 @@ class Orbit:
     shift: Array = field(repr=False, default_factory=lambda: np.zeros(0))
     forcing: Mapping[str, Any] = field(repr=False, default_factory=dict)
     activated: int = field(repr=False, default=0)
+    energy: float | None = None
     chart: Chart | None = field(repr=False, default=None)
 
     @property
@@ -72,6 +76,13 @@ class Orbit:
     def forced(self) -> bool:
         """Whether the period is that of a forcing."""
         return self.trivial < 0
+
+    @property
+    def own(self) -> Array:
+        """Which multipliers tell stability: not the 1 of a free period, there twice where energy is kept, (d,) bool."""
+        at, times = np.arange(len(self.multipliers)), 1 + ("conserves" in self.forcing)
+        found: Array = (at < self.trivial) | (at >= self.trivial + times) if self.trivial >= 0 else at >= 0
+        return found
 
     @property
     def exponents(self) -> Array:
@@ -117,6 +128,7 @@ class Orbit:
         moving = self.chart.moving(states, rates)
         return moving.poses, moving.speeds
 
+    @checked
     def at(self, time: float) -> Array:
         """Return the state at a time, taken into the period: u, or qpos, qvel and activations one after the other."""
         turns, tau = divmod(time / self.period, 1.0)
@@ -132,12 +144,18 @@ class Orbit:
         """Return an observable at `times`, (n,)."""
         return self.read(name, self.times)
 
-    def read(self, name: str, times: Any) -> Array:
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return the names that [...] takes."""
+        return list(self.reading.names)
+
+    @checked
+    def read(self, name: str, times: float | Sequence[float] | Array) -> Array:
         """Return an observable at times in the period, (m,): the polynomials through its values at the points."""
         tau = np.atleast_1d(np.asarray(times, dtype=float)) / self.period
         return along(self.path, self.reading, self._column(name), tau)[0]
 
-    def rate(self, name: str, times: Any) -> Array:
+    @checked
+    def rate(self, name: str, times: float | Sequence[float] | Array) -> Array:
         """Return the derivative of an observable in time, at times in the period, (m,)."""
         tau = np.atleast_1d(np.asarray(times, dtype=float)) / self.period
         return along(self.path, self.reading, self._column(name), tau)[1] / self.period
@@ -146,7 +164,8 @@ class Orbit:
         """Return period, frequency and, of each observable, what the columns of a curve of orbits hold, by name."""
         read = readings(self.path, self.reading, self.forced)
         each = {f"{n}.{what}": float(v[k]) for k, n in enumerate(self.reading.names) for what, v in read.items()}
-        return {"period": self.period, "frequency": self.frequency, **each}
+        kept = {} if self.energy is None else {"energy": self.energy}
+        return {"period": self.period, "frequency": self.frequency, **kept, **each}
 
     def _column(self, name: str) -> int:
         own = column_of(name, self.reading.names)
@@ -161,6 +180,7 @@ class Orbit:
             raise unknown_name("observable or parameter", name, self.units)
         return self.units[own]
 
+    @checked
     def harmonics(self, name: str, count: int = 5) -> Array:
         """Return the complex harmonics 0 .. count of an observable, (count + 1,).
 
@@ -185,8 +205,10 @@ class Orbit:
         """Return the values of the model's parameters that do not move."""
         driven = self.forcing.get("inputs", {})
         own = {"frequency", *(f"{n}{part}" for n in driven for part in ("", ".amplitude", ".phase"))} if driven else ()
+        own = (*own, self.forcing.get("conserves", {}).get("chosen_by"))
         return {n: v for n, v in self.parameters.items() if n not in own}
 
+    @checked
     def history(self, samples: int | None = None) -> History:
         """Return the period as a time history: it plots, animates and is stored like any other.
 
@@ -207,6 +229,7 @@ class Orbit:
             self.problem, provenance(self.problem), self.constants(),
         )
 
+    @checked
     def plot(self, x: str, y: str | None = None, **options: Any) -> Axes:
         """Draw the orbit: y against x, by default the rate of x; "time" may be either. Options as `plot_orbits`."""
         from mjcont.drawing.orbits import plot_orbits
@@ -216,7 +239,7 @@ class Orbit:
 
     def __str__(self) -> str:
         """Return a one-line summary."""
-        largest = np.abs(np.delete(self.multipliers, self.trivial) if self.trivial >= 0 else self.multipliers)
+        largest = np.abs(self.multipliers[self.own])
         size = f"{largest.max():.6g}" if len(largest) else "none"
         return (
             f"{self.name}: orbit of period {self.period:.9g} s, {len(self.path.w)} intervals of degree "
