@@ -209,8 +209,9 @@ def _loaded(m: mujoco.MjModel, d: mujoco.MjData) -> Iterator[str]:
         if d.efc_force[r] <= 0.0:
             continue
         if kind == kinds.mjCNSTR_LIMIT_JOINT:
-            side = "lower" if d.qpos[m.jnt_qposadr[index]] < np.mean(m.jnt_range[index]) else "upper"
-            yield f"{side} limit of {element_name(m, mujoco.mjtObj.mjOBJ_JOINT, index)}"
+            ball = m.jnt_type[index] == int(mujoco.mjtJoint.mjJNT_BALL)  # it has one, of its angle
+            low = not ball and d.qpos[m.jnt_qposadr[index]] < np.mean(m.jnt_range[index])
+            yield f"{'lower' if low else 'upper'} limit of {element_name(m, mujoco.mjtObj.mjOBJ_JOINT, index)}"
         elif kind == kinds.mjCNSTR_LIMIT_TENDON:
             side = "lower" if d.ten_length[index] < np.mean(m.tendon_range[index]) else "upper"
             yield f"{side} limit of {element_name(m, mujoco.mjtObj.mjOBJ_TENDON, index)}"

@@ -90,7 +90,8 @@ class Mechanism(Shareable, Observed, Held, Model):
         self.observables = told_apart(model_observables(model), self.parameters)
         self.declared = {}
         self.keyframes = keyframes(model)
-        self.constrained, self._passive = is_constrained(model), features.passive(model)
+        self.constrained = is_constrained(model)
+        self._passive = features.passive(model) and all(map(features.stays_passive, self.parameters.values()))
         self._held: tuple[str, ...] = ()
         self._friction = friction
         self._own(model, geometry)
@@ -160,6 +161,7 @@ class Mechanism(Shareable, Observed, Held, Model):
             given, core = Declaration(name, unit, bounds, tuple(paths), function, value), self._core
             parameter = declared_parameter(core.as_loaded(), core.geometry, given)
             self.parameters[name] = parameter
+            self._passive = self._passive and features.stays_passive(parameter)
             renamed = told_apart(self.observables, self.parameters)
             self.observables.clear()
             self.observables.update(renamed)

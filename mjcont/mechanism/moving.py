@@ -20,6 +20,7 @@ from mjcont.models.resistance import resistances
 from mjcont.numerics.equations.differences import FOURTH_ORDER, SECOND_ORDER
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.results.model import Model
+from mjcont.results.orbits import charts
 from mjcont.results.orbits.charts import EDGE, Chart
 
 # rows of a batch; a step in velocity, relative to the state's scale in 1/s: accelerations are quadratic in it
@@ -108,9 +109,10 @@ class Moving:
         act = states[:, 2 * n :] if self.na else None
         if chart is None:
             return self._batched(x, v, act, controls)
-        found = self._batched(chart.poses(x), chart.speeds(x, v), act, controls)
-        found[:, :n] = chart.bends(x, v, found[:, :n])
-        self._leave_chart(found, chart, x)
+        moving = chart.moving(x, v)
+        found = self._batched(moving.poses, moving.speeds, act, controls)
+        found[:, :n] = moving.bends(found[:, :n])
+        self._leave_chart(found, chart, moving)
         return found
 
     def _batched(self, poses: Array, speeds: Array, activations: Array | None, controls: Array | None) -> Array:
@@ -137,14 +139,15 @@ class Moving:
                 row[:] = np.nan
                 self.failure = f"the orbit touches {', '.join(sorted(names))}"
 
-    def _leave_chart(self, rows: Array, chart: Chart, xi: Array) -> None:
+    def _leave_chart(self, rows: Array, chart: Chart, moving: charts.Moving) -> None:
         """Let rows in which a rotation leaves its chart, or its spring turns over, have no value."""
         m = self._core.model
-        far = chart.angles(xi) > EDGE
-        springs = m.qpos_spring[chart.places[:, :1] + np.arange(4)]
         own = m.dof_jntid[chart.places[:, 1]]
-        turned = chart.past(xi, springs) & ((m.jnt_stiffness[own] != 0.0) | m.jnt_stiffnesspoly[own].any(axis=1))
-        for clause, at in ((_FAR, far), (_TURNED_OVER, turned)):
+        beyond = [(_FAR, moving.angles > EDGE)]
+        sprung = (m.jnt_stiffness[own] != 0.0) | m.jnt_stiffnesspoly[own].any(axis=1)
+        if sprung.any():
+            beyond.append((_TURNED_OVER, sprung & moving.past(m.qpos_spring[chart.places[:, :1] + np.arange(4)])))
+        for clause, at in beyond:
             if at.any():
                 rows[at.any(axis=1)] = np.nan
                 self.failure = clause.format(", ".join(np.array(chart.joints)[at.any(axis=0)]))

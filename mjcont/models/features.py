@@ -14,7 +14,7 @@ from mjcont.models.actuators import actuator_name, follower, integrator
 from mjcont.models.numbers import refuse_invalid
 from mjcont.models.sources import MOST_FREEDOMS
 from mjcont.models.states import element_name
-from mjcont.results.quantities import FRICTION
+from mjcont.results.quantities import FRICTION, Parameter
 
 _DISABLE = mujoco.mjtDisableBit
 _OBJ = mujoco.mjtObj
@@ -80,6 +80,17 @@ def passive(model: mujoco.MjModel) -> bool:
     none = model.actuator_biastype == int(mujoco.mjtBias.mjBIAS_NONE)
     resisting = np.all(none | (_affine_bias(model) & (model.actuator_biasprm[:, 2] <= 0)))
     return bool(plain and resisting and explicit_damping(model) and all(np.all(d >= 0) for d in dampers))
+
+
+def stays_passive(parameter: Parameter) -> bool:
+    """Whether dampers resist at every value of a parameter within its bounds."""
+    for t in parameter.targets:
+        ends = [t.entry(value) for value in (*parameter.bounds, parameter.value)]
+        if t.field in ("dof_damping", "tendon_damping", "actuator_damping") and min(ends) < 0.0:
+            return False
+        if t.field == "actuator_biasprm" and max(ends) > 0.0 and any(i % mujoco.mjNBIAS == 2 for i in t.index):
+            return False
+    return True
 
 
 def _affine_bias(model: mujoco.MjModel) -> np.ndarray:

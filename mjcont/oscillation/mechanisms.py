@@ -46,7 +46,8 @@ class MechanismFlow(ModelFlow):
         activations = states[:, 2 * n :] if self.activated else None
         if self.chart is None:
             return places, speeds, activations
-        return self.chart.poses(places), self.chart.speeds(places, speeds), activations
+        moving = self.chart.moving(places, speeds)
+        return moving.poses, moving.speeds, activations
 
     # -- the chart's coordinates, where the mechanism's poses are no vectors ---------------------------------------
 
@@ -79,7 +80,7 @@ class MechanismFlow(ModelFlow):
         states, rates = path.states(places), path.rates(places)
         own, last = moved(states), slice(rates.shape[1] - n - self.activated, rates.shape[1] - self.activated)
         qacc = theirs.accelerations(states[:, :n], states[:, n : 2 * n], rates[:, last])
-        rates[:, last] = chart.bends(own[:, :n], own[:, n : 2 * n], qacc)
+        rates[:, last] = chart.moving(own[:, :n], own[:, n : 2 * n]).bends(qacc)
         if path.order == 1:
             rates[:, :n] = own[:, n : 2 * n]
         w = rates.reshape(path.w.shape) * lengths[:, None, None] ** path.order

@@ -139,7 +139,9 @@ def response_path(flow: ModelFlow, x: Array, values: dict[str, float], meshes: M
         path, part = path_at(point), ahead
         step *= 1.5
     if part < 1.0:
-        why = flow.touches or "it turns there or loses itself"
+        free = flow.model.rigid_modes(found.x, flow.theirs(values))
+        loose = f"nothing opposes {' and '.join(free)}: let a spring do it" if free else ""
+        why = loose or flow.touches or "it turns there or loses itself"
         raise StartError(f"the response from rest was lost at {part:.3g} of the inputs' amplitudes: {why}; give a "
                          "smaller amplitude, or state= near another response")
     return path

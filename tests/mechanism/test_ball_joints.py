@@ -123,3 +123,12 @@ def test_a_chain_on_ball_joints_hangs_where_its_energy_is_least():
         found = optimize.minimize(chain_energy, np.full(6, 0.1), args=(h,), method="BFGS", tol=1e-8)
         vectors = [Rotation.from_quat(np.roll(q, -1)).as_rotvec() for q in (p.state[:4], p.state[4:])]
         assert np.concatenate(vectors) == pytest.approx(found.x, abs=1e-5)
+
+
+def test_a_ball_joint_has_an_upper_limit_alone():
+    limited = mc.Mechanism.from_xml("""<mujoco><worldbody><body>
+        <joint name="hip" type="ball" range="0 150" limited="true"/><geom size="0.1" pos="0 0 1"/></body></worldbody>
+        </mujoco>""")
+    angle = np.radians(160.0)
+    pose = np.array([np.cos(angle / 2), np.sin(angle / 2), 0.0, 0.0])
+    assert limited.active(pose, limited.values()) == {"upper limit of hip"}

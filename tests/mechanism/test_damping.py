@@ -122,3 +122,15 @@ def test_a_gain_that_drives_with_velocity_makes_a_hopf_point():
     (point,) = mc.continue_equilibria(mechanism, "u", bounds=(0.0, 1.0)).of_kind("HB")
     assert point["u"] == pytest.approx(0.5, abs=1e-9)
     assert point.coefficients["omega"] == pytest.approx(5.0**0.5, rel=1e-9)
+
+
+@pytest.mark.parametrize("path", ["actuator:drive.biasprm[2]", "joint:x.damping"])
+def test_a_parameter_that_turns_a_damper_into_a_drive_makes_rest_unstable(path):
+    driven = mc.Mechanism.from_xml("""<mujoco><option gravity="0 0 0"/><worldbody><body>
+        <joint name="x" type="slide" stiffness="5" damping="0.1"/><geom size=".1" mass="1"/></body></worldbody>
+        <actuator><general name="drive" joint="x" biastype="affine" biasprm="0 0 0"/></actuator></mujoco>""")
+    driven.declare("c", path, bounds=(-1.0, 1.0))
+    unstable = 0.1 if "drive" in path else 0.0
+    rest = mc.continue_equilibria(driven, "c", (-1.0, 1.0))
+    assert rest.point("HB1")["c"] == pytest.approx(unstable, abs=1e-9)
+    assert {rest.stability[0], rest.stability[-1]} == {"stable", "unstable"}

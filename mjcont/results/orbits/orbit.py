@@ -123,7 +123,10 @@ class Orbit(Shown):
             c = (c - self.activated) // 2
         halves = self.path.order == 2 or self.activated
         states, rates = found[:, :c], found[:, c : 2 * c] if halves else self.path.rates(places)
-        return (states, rates) if self.chart is None else (self.chart.poses(states), self.chart.speeds(states, rates))
+        if self.chart is None:
+            return states, rates
+        moving = self.chart.moving(states, rates)
+        return moving.poses, moving.speeds
 
     @checked
     def at(self, time: float) -> Array:
@@ -134,8 +137,8 @@ class Orbit(Shown):
         if self.chart is None:
             return state
         n = (len(state) - self.activated) // 2
-        xi, rates = state[None, :n], state[None, n : 2 * n]
-        return np.concatenate([self.chart.poses(xi)[0], self.chart.speeds(xi, rates)[0], state[2 * n :]])
+        moving = self.chart.moving(state[None, :n], state[None, n : 2 * n])
+        return np.concatenate([moving.poses[0], moving.speeds[0], state[2 * n :]])
 
     def __getitem__(self, name: str) -> Array:
         """Return an observable at `times`, (n,)."""
