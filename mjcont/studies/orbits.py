@@ -20,7 +20,9 @@ from mjcont.studies.keys import Context, Key, Kind, takes
 from mjcont.studies.schema import Table
 
 FAMILY = "nonlinear mode"
-ORBITS = ("cycles", "response", FAMILY)
+# curves of orbits that motions settle on, or leave
+LOSING = ("cycles", "response")
+ORBITS = (*LOSING, FAMILY)
 # what columns say of an observable, and of a response besides
 _NUMBERS, _FIRST = ("max", "min", "amplitude", "mean", "rms"), ("h1", "phase")
 _MESH: Mapping[str, f.Form] = {
@@ -170,7 +172,7 @@ RESULT = Key(v.result_name, "Names its files, and the result elsewhere in the st
 
 CYCLES = Kind("cycles", "A curve of limit cycles (`continue_cycles`).", {
     "name": RESULT,
-    "point": Key(r.reference("branch", "cycles", "response"),
+    "point": Key(r.reference("branch", *LOSING),
                  "Where it begins: a Hopf point, such as `\"equilibria:HB1\"`; a PD, a BPC or another orbit of cycles.",
                  otherwise="the cycle on which the motion from the start settles"),
     "parameter": Key(v.parameter, "The parameter that varies.", otherwise="that of the point's curve"),

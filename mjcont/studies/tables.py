@@ -21,7 +21,7 @@ from mjcont.studies import values as v
 from mjcont.studies.families import NONLINEAR
 from mjcont.studies.keys import Context, Key, Kind, takes
 from mjcont.studies.linear import MODES, TRANSFER
-from mjcont.studies.orbits import CYCLES, FAMILY, ORBITS, RESPONSES
+from mjcont.studies.orbits import CYCLES, FAMILY, LOSING, ORBITS, RESPONSES
 from mjcont.studies.schema import Table
 from mjcont.studies.waveforms import INPUTS, read_input
 
@@ -245,7 +245,7 @@ DIAGRAM = Kind("diagrams", "Every branch that the starts reach through branch po
 
 LOCUS = Kind("loci", "A special point followed in one more parameter (`continue_special`).", {
     "name": _NAME,
-    "point": Key(r.reference(*SPECIAL, *ORBITS, labels=(*CONTINUABLE, *FOLLOWED)), _POINT.text, needed=True),
+    "point": Key(r.reference(*SPECIAL, *LOSING, labels=(*CONTINUABLE, *FOLLOWED)), _POINT.text, needed=True),
     "parameter": Key(v.parameter, "The parameter that is freed.", needed=True),
     "bounds": _BOUNDS, "direction": _DIRECTION, "zeros": _ZEROS,
     "csv": _csv("a row a point", False), "settings": _SETTINGS,
@@ -319,7 +319,7 @@ MAP = Kind("maps", "A special point over a grid of one or two parameters (`speci
 CERTIFICATE = Kind("certificates", "Stability held against simulations beside points of a branch (`verify_stability`). "
                                    "NAME.h5 is the branch with its certificate.", {
     "name": _NAME,
-    "branch": Key(r.curve("branch", *ORBITS), "The branch, or a curve of orbits; the first of a diagram `D` is `D_1`.",
+    "branch": Key(r.curve("branch", *LOSING), "The branch, or a curve of orbits; the first of a diagram `D` is `D_1`.",
                   needed=True),
     "n": Key(v.whole(1), "Number of points.", 20),
     "amplitude": Key(v.positive("1"), "Of the disturbance.", 1e-7),

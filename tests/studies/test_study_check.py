@@ -239,6 +239,9 @@ name = "shaken"
 parameter = "frequency"
 bounds = [1, 2]
 forcing = { P = { amplitude = 1 } }
+[[nonlinear_modes]]
+name = "large"
+bounds = [0.1, 1]
 """
 ODD: list[Any] = [
     3,

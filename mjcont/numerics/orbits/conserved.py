@@ -175,7 +175,10 @@ def own_multipliers(
     fast, resolved = fast_modes(orbits, blocks, period), np.ones(len(values), dtype=bool)
     if fast is not None:
         slow = fast.least(scale[:, None] * (own @ vectors), max(len(values) - fast.count, 0))
-        values = np.concatenate([values[slow], fast.adiabatic[: len(values) - len(slow)]])
+        quick = np.delete(values, slow)  # on the circle, where Gauss's points leave them, but anywhere on it
+        if len(fast.adiabatic) >= len(quick):
+            quick = fast.adiabatic[: len(quick)]
+        values = np.concatenate([values[slow], quick])
         resolved = np.arange(len(values)) < len(slow)
     order = np.argsort(-np.abs(values), kind="stable")
     values, resolved = values[order], resolved[order]
