@@ -6,7 +6,12 @@ Failure of the numerics is not here: a branch that cannot go on says so in its s
 from __future__ import annotations
 
 import difflib
+import sys
+import warnings
 from collections.abc import Iterable
+
+# packages whose frames lie between a user's call and what mjcont says of it
+_INSIDE = ("mjcont", "numpy", "contextlib", "functools")
 
 
 class MjcontError(Exception):
@@ -59,6 +64,14 @@ class RangeWarning(UserWarning):
 
 class ResultWarning(UserWarning):
     """A stored result whose damage would not be seen: it was written without checksums."""
+
+
+def warn(message: str, category: type[Warning] = UserWarning) -> None:
+    """Warn where mjcont was called from, however deep inside it the reason was found."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] in _INSIDE:
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, category, stacklevel=level)
 
 
 def leaves_domain(error: Exception) -> bool:

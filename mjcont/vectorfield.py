@@ -13,7 +13,7 @@ from scipy import sparse
 
 from mjcont.arguments import checked
 from mjcont.errors import FunctionError, MjcontError, ParameterError, leaves_domain, unknown_name
-from mjcont.numerics.equations.clock import check
+from mjcont.numerics.equations.clock import TimeUp, check
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
     PARAMETER,
@@ -39,8 +39,6 @@ from mjcont.results.quantities import (
 _FAR, _LEAST = 20.0, 1e-3
 # components all below this part of the scale are zero, as far as equations without a scale can tell
 _NOTHING = 1e-8
-# states at which the function is called between looks at the clock
-_TOGETHER = 32
 
 
 class VectorField(Model):
@@ -196,24 +194,21 @@ class VectorField(Model):
 
     def rates(self, states: Array, values: Sequence[Values], times: Sequence[float]) -> Array:
         """Return f at states (m, n), each with its own parameter values and time in s, (m, n), as `rate` does."""
-        if not len(states):
-            return np.empty((0, self.n))
-        pieces = [slice(i, i + _TOGETHER) for i in range(0, len(states), _TOGETHER)]
-        return np.concatenate([self._some(states[at], values[at], times[at]) for at in pieces])
-
-    def _some(self, states: Array, values: Sequence[Values], times: Sequence[float]) -> Array:
-        """Return f at few states: at once, or one by one where the function has no value or not the right shape."""
-        check()
-        given = zip(states, values, times, strict=True) if self.timed else zip(states, values, strict=True)
+        function, timed, found = self.function, self.timed, []
         try:
-            found = np.array([self.function(*each) for each in given], dtype=float)
-        except Exception:
-            found = np.empty(0)
-        if found.shape != states.shape:
+            for u, p, t in zip(states, values, times, strict=True):
+                check()
+                found.append(function(u, p, t) if timed else function(u, p))
+            rows = np.array(found, dtype=float)
+        except TimeUp:
+            raise
+        except Exception:  # one by one, to see which has no value
+            rows = np.empty(0)
+        if rows.shape != states.shape:
             return np.array([self.rate(u, p, t) for u, p, t in zip(states, values, times, strict=True)])
         thread = threading.get_ident()
         self._counts[thread] = self._counts.get(thread, 0) + len(states)
-        return found
+        return rows
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x plus each row of `steps`, (m, n)."""

@@ -11,12 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.errors import ParameterError
 from mjcont.numerics.equations.differences import CENTRED, PARAMETER, kept_within
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.branch import Branch
 from mjcont.results.model import Model
-from mjcont.results.points import Column
-from mjcont.results.quantities import Parameter
+from mjcont.results.points import Column, Point
+from mjcont.results.quantities import Parameter, check_values, finite
 
 FRACTION = "leg"
 
@@ -187,3 +188,32 @@ def unwrapped(branch: Branch) -> Branch:
         fixed={n: v for n, v in branch.fixed.items() if n not in leg.first},
         problem=leg.problem,
     )
+
+
+def loads_of(problem: Any, parameter: Any, path: Any, start: Any) -> list[dict[str, float]]:
+    """Return the parameter values between which the path runs, each with every parameter that changes."""
+    if isinstance(parameter, str):
+        if path is None:
+            raise ParameterError(f"load_path needs the values of {parameter} to follow, such as [0, 30, 0]")
+        rows: list[Mapping[str, float]] = [{parameter: v} for v in (path if np.ndim(path) else [path])]
+    else:
+        if path is not None:
+            raise ParameterError("give a parameter's name and its values, or a list of dicts")
+        rows = list(parameter)
+    if any(not isinstance(r, Mapping) for r in rows):
+        raise ParameterError("a path in several parameters is a list of dicts, such as [{'F': 0}, {'F': 3, 'G': 1}]")
+    names = list(dict.fromkeys(n for r in rows for n in r))
+    known = start.parameters if isinstance(start, Point) else (start or {})
+    check_values(known)
+    current = {n: finite(n, known.get(n, problem.parameter(n).value)) for n in names}
+    found: list[dict[str, float]] = []
+    for row in rows:
+        try:
+            current = {**current, **{n: float(v) for n, v in row.items()}}
+        except (TypeError, ValueError) as error:
+            raise ParameterError(f"the loads of a path must be numbers, got {dict(row)}") from error
+        problem.values(current)
+        found.append(current)
+    if len(found) < 2 or all(v == found[0] for v in found):
+        raise ParameterError("a path needs at least two different loads, such as [0, 30]")
+    return found

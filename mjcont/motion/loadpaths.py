@@ -20,7 +20,7 @@ from mjcont.curves.walkers import equilibrium_detectors
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError
 from mjcont.mechanism.energy import potential_energy, without_potential
 from mjcont.motion.escape import Landing, escape
-from mjcont.motion.legs import FRACTION, Leg, unwrapped
+from mjcont.motion.legs import FRACTION, Leg, loads_of, unwrapped
 from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.algebra import eigenvectors, singular, solve
 from mjcont.numerics.equations.bordered import oriented
@@ -38,7 +38,6 @@ from mjcont.results.branch import Branch, sliced
 from mjcont.results.loadpaths import Jump, LoadPath, Segment
 from mjcont.results.model import Model
 from mjcont.results.points import Point, SpecialPoint, show
-from mjcont.results.quantities import check_values, finite
 
 LANDINGS = ("motion", "creep")
 # how far beyond the point of loss the load is taken, relative to the leg: where another rest may be near, farther
@@ -98,7 +97,7 @@ def load_path(
     problem, given = _sourced(source)
     _check_landing(landing, max_time, max_jumps)
     settings = replace(make_settings(options), chord=math.inf)  # rows are the points that were reached in turn
-    vertices = _vertices(problem, parameter, path, start)
+    vertices = loads_of(problem, parameter, path, start)
     before = problem.evaluations
     first = _first(problem, given, vertices[0], start, keyframe, state)
     held, _ = hold_rigid_modes(problem, first.state, first.parameters)
@@ -125,35 +124,6 @@ def _sourced(source: Any) -> tuple[Any, Branch | None]:
     if problem is None:
         raise MjcontError("the branch was loaded without its problem: mc.load(path, problem=...)")
     return problem, given
-
-
-def _vertices(problem: Any, parameter: Any, path: Any, start: Any) -> list[dict[str, float]]:
-    """Return the parameter values between which the path runs, each with every parameter that changes."""
-    if isinstance(parameter, str):
-        if path is None:
-            raise ParameterError(f"load_path needs the values of {parameter} to follow, such as [0, 30, 0]")
-        rows: list[Mapping[str, float]] = [{parameter: v} for v in (path if np.ndim(path) else [path])]
-    else:
-        if path is not None:
-            raise ParameterError("give a parameter's name and its values, or a list of dicts")
-        rows = list(parameter)
-    if any(not isinstance(r, Mapping) for r in rows):
-        raise ParameterError("a path in several parameters is a list of dicts, such as [{'F': 0}, {'F': 3, 'G': 1}]")
-    names = list(dict.fromkeys(n for r in rows for n in r))
-    known = start.parameters if isinstance(start, Point) else (start or {})
-    check_values(known)
-    current = {n: finite(n, known.get(n, problem.parameter(n).value)) for n in names}
-    found: list[dict[str, float]] = []
-    for row in rows:
-        try:
-            current = {**current, **{n: float(v) for n, v in row.items()}}
-        except (TypeError, ValueError) as error:
-            raise ParameterError(f"the loads of a path must be numbers, got {dict(row)}") from error
-        problem.values(current)
-        found.append(current)
-    if len(found) < 2 or all(v == found[0] for v in found):
-        raise ParameterError("a path needs at least two different loads, such as [0, 30]")
-    return found
 
 
 def _first(

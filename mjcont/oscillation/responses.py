@@ -89,15 +89,7 @@ def continue_response(
     read = read_options(flow, options)
     low, high = _range(flow, parameter, bounds, values)
     unit = flow.parameter(parameter).unit
-    if isinstance(start, AnyOrbit):
-        flow = flow.about(orbit_at(start).states[0])
-        path, shift = _like(start, flow, values, read)
-    else:
-        at = start.state if isinstance(start, Point) and state is None else state
-        x, _ = start_from(problem, None, keyframe, at)
-        flow = flow.about(x)
-        path, shift = response_path(flow, x, values, read.meshes), np.zeros(flow.d)
-    orbits, x = _first(flow, path, shift, values, read)
+    orbits, x = _first(flow, _pose(problem, start, keyframe, state), start, values, read)
     system = System(orbits, values, [Free(parameter, low, high, unit)])
     entries = [Entry(sign, x, system.start_y(), None) for sign in check_direction(direction)]
     return run(RESPONSES, system, entries, read, "the motion settled from its start", stop, progress)
@@ -151,16 +143,28 @@ def _like(start: AnyOrbit, flow: ModelFlow, values: dict[str, float], read: Opti
     return path, orbit.shift if len(orbit.shift) else np.zeros(flow.d)
 
 
+def _pose(problem: Model, start: Start | None, keyframe: str | None, state: Any) -> Array:
+    """Return the state (nq,) near which a response is looked for."""
+    if isinstance(start, AnyOrbit):
+        return orbit_at(start).states[0]
+    return start_from(problem, None, keyframe, start.state if isinstance(start, Point) and state is None else state)[0]
+
+
 def _first(
-    flow: ModelFlow, path: Path, shift: Array, values: dict[str, float], read: Options
+    flow: ModelFlow, x: Array, start: Start | None, values: dict[str, float], read: Options
 ) -> tuple[Orbits, Array]:
-    """Return the response near a path, which gains a shift in a period, with the equations on its mesh.
+    """Return the response near a state, or near an orbit given as start, with the equations on its mesh.
 
     Raises
     ------
     StartError
         If there is none.
     """
+    flow = flow.about(x)
+    if isinstance(start, AnyOrbit):
+        path, shift = _like(start, flow, values, read)
+    else:
+        path, shift = response_path(flow, x, values, read.meshes), np.zeros(flow.d)
     point = orbit_near(flow, path, values, shift, read.meshes)
     if point is None:
         why = f": {flow.touches}" if flow.touches else ""

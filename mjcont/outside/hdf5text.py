@@ -31,7 +31,7 @@ class Attributes:
             self._item.attrs[name] = np.int8(value) if isinstance(value, bool | np.bool_) else value
         elif len(value.encode(errors="surrogateescape")) > _LONGEST:
             group, place = self._long(name)
-            write_text(group, place, value)
+            put_text(group, place, value)
         else:
             self._item.attrs[name] = fixed([value]).reshape(())
 
@@ -73,7 +73,7 @@ def fixed(texts: Sequence[str]) -> Any:
     return np.array(each, dtype=f"S{max([1, *map(len, each)])}")
 
 
-def write_text(group: h5py.Group, name: str, texts: str | Sequence[str]) -> None:
+def put_text(group: h5py.Group, name: str, texts: str | Sequence[str]) -> None:
     """Write a text, or several, as a dataset."""
     group[name] = fixed([texts]).reshape(()) if isinstance(texts, str) else fixed(texts)
 

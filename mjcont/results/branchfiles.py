@@ -30,7 +30,7 @@ import numpy as np
 
 from mjcont.numerics.equations.problem import Array
 from mjcont.outside.hdf5names import key
-from mjcont.outside.hdf5text import Attributes, write_text
+from mjcont.outside.hdf5text import Attributes, put_text
 from mjcont.results.branch import Branch
 from mjcont.results.certificates import Certificate
 from mjcont.results.files import (
@@ -116,8 +116,8 @@ def _write_mark(g: h5py.Group, mark: Mark, curve: str) -> None:
 def _write_table(g: h5py.Group, branch: Branch) -> None:
     """Write what the special points are as columns."""
     marks = branch.marks
-    write_text(g, "label", [m.label for m in marks])
-    write_text(g, "kind", [m.kind for m in marks])
+    put_text(g, "label", [m.label for m in marks])
+    put_text(g, "kind", [m.kind for m in marks])
     rows = np.array([m.index for m in marks], dtype=np.int32)
     g["row"], g["tolerance"] = rows, np.array([m.tolerance for m in marks])
     g["converged"] = np.array([m.converged for m in marks], dtype=np.int8)

@@ -27,7 +27,7 @@ import numpy as np
 
 from mjcont.errors import ModelWarning
 from mjcont.outside.hdf5names import key
-from mjcont.outside.hdf5text import Attributes, read_text, write_text
+from mjcont.outside.hdf5text import Attributes, put_text, read_text
 from mjcont.outside.saving import write_file
 from mjcont.outside.sealing import sealed_file
 from mjcont.results.model import Model
@@ -55,7 +55,7 @@ def write_common(f: h5py.Group, result: Any, *, model: bool = True) -> None:
 def write_model(f: h5py.Group, problem: Model | None, *, text: bool = True) -> None:
     """Write the model's text, if it has one, and what was declared in Python."""
     if problem is not None and problem.mjcf is not None and text:
-        write_text(f, "model", problem.mjcf)
+        put_text(f, "model", problem.mjcf)
     Attributes(f)["declared"] = json.dumps(dict(problem.declared) if problem is not None else {})
 
 

@@ -23,7 +23,7 @@ import numpy as np
 
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
-from mjcont.outside.hdf5text import Attributes, read_text, read_texts, write_text
+from mjcont.outside.hdf5text import Attributes, put_text, read_text, read_texts
 from mjcont.results.files import FORMAT_VERSION, frozen, read_columns, save_hdf5, write_columns
 from mjcont.results.model import Model
 from mjcont.results.points import Column, show
@@ -129,9 +129,9 @@ class SweepTable(Tabular, Shown):
         Attributes(f).update({f"provenance_{k}": v for k, v in self.provenance.items()})
         write_columns(f, self.columns)
         f["cases"], f["starts"] = self.cases, self.starts
-        write_text(f, "study", self.study)
-        write_text(f, "status", [str(s) for s in self.status])
-        write_text(f, "message", self.messages)
+        put_text(f, "study", self.study)
+        put_text(f, "status", [str(s) for s in self.status])
+        put_text(f, "message", self.messages)
 
     def __str__(self) -> str:
         """Return how each quantity is distributed, what it goes with, and the first failures."""

@@ -23,7 +23,7 @@ def repressilator(u, p):
 def test_a_field_that_oscillates_at_its_start_is_solved(scale):
     # the equal state solves v K^3 = d x (K^3 + x^3)
     scales = None if scale is None else [scale] * 3
-    field = mc.VectorField(repressilator, [25.0, 15.0, 15.0], REPRESSILATOR, names="XYZ", scale=scales)
+    field = mc.VectorField(repressilator, [25.0, 15.0, 15.0], REPRESSILATOR, names=list("XYZ"), scale=scales)
     roots = np.roots([0.1, 0.0, 0.0, 0.1 * 20.0**3, -10.0 * 20.0**3])
     (x,) = roots[(abs(roots.imag) < 1e-9) & (roots.real > 0)].real
     point = mc.find_equilibrium(field)

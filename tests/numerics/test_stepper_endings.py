@@ -196,7 +196,7 @@ def test_bounds_that_exclude_the_start_are_refused():
 
 
 def test_a_start_that_is_neither_values_nor_a_point_is_refused():
-    with pytest.raises(mc.ParameterError, match="start must be a dict of parameter values or a point, got float"):
+    with pytest.raises(mc.ParameterError, match="start must be a dict or a Point, got the float 0.5"):
         follow_cusp(start=0.5)
 
 

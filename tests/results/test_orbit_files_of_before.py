@@ -33,7 +33,7 @@ def test_a_response_through_a_filter_comes_with_its_model_forcing_and_activation
     assert again.orbit.activations.shape[1] == 1
 
 
-@pytest.mark.parametrize("file", sorted(WRITTEN.glob("*.h5")), ids=lambda p: p.stem)
+@pytest.mark.parametrize("file", sorted(WRITTEN.parent.glob("*/*.h5")), ids=lambda p: p.stem)
 def test_what_is_loaded_is_saved_and_loaded_again(file, tmp_path):
     result = mc.load(file)
     assert str(mc.load(result.save(tmp_path / file.name))) == str(result)

@@ -21,7 +21,7 @@ import h5py
 import numpy as np
 
 from mjcont.outside.hdf5names import key
-from mjcont.outside.hdf5text import Attributes, write_text
+from mjcont.outside.hdf5text import Attributes, put_text
 from mjcont.results.files import (
     FORMAT_VERSION,
     Unfit,
@@ -74,7 +74,7 @@ def _write_modes(result: Modes, f: h5py.File) -> None:
     for name, unit, values in result._cells(False):
         place = f"table/{key(name)}"
         if any(isinstance(v, str) for v in values):
-            write_text(f, place, [str(v) for v in values])
+            put_text(f, place, [str(v) for v in values])
         else:
             f[place] = np.asarray(values)
         Attributes(f[place])["unit"] = unit
