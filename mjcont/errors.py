@@ -6,7 +6,12 @@ Failure of the numerics is not here: a branch that cannot go on says so in its s
 from __future__ import annotations
 
 import difflib
+import os
+import sys
+import warnings
 from collections.abc import Iterable
+
+_PACKAGE = os.path.dirname(__file__) + os.sep
 
 
 class MjcontError(Exception):
@@ -59,6 +64,14 @@ class RangeWarning(UserWarning):
 
 class ResultWarning(UserWarning):
     """A stored result whose damage would not be seen: it was written without checksums."""
+
+
+def warn(message: str, category: type[Warning]) -> None:
+    """Give a warning that names the line of the user's own that led to it: the first outside this package."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, category, stacklevel=level)
 
 
 def leaves_domain(error: Exception) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
@@ -12,7 +11,7 @@ import numpy as np
 from mjcont.arguments import checked
 from mjcont.curves.collect import Progress, collect, make_point, mark_of, run_directions
 from mjcont.curves.walkers import Zeros, equilibrium_walker, point_stop, zero_values
-from mjcont.errors import BoundsError, BranchWarning, MjcontError, ParameterError, StartError
+from mjcont.errors import BoundsError, BranchWarning, MjcontError, ParameterError, StartError, warn
 from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import LARGEST_ERROR
@@ -181,7 +180,7 @@ def _warn_of_others(start: Any, parameter: str) -> None:
         said = (f"several branches meet in {start.label or 'this branch point'}, and the one that it was found on is "
                 "followed: mc.switch_branches(point) follows all of them, a diagram ([[diagrams]] in a study) whatever "
                 "they reach")
-        warnings.warn(said, BranchWarning, stacklevel=4)
+        warn(said, BranchWarning)
 
 
 def _in_its_scale(follow: Callable[[Model], tuple[Branch, Model | None]], problem: Model) -> Branch:

@@ -8,7 +8,6 @@ are: in an assembled pose every bush is relaxed. The text itself is edited (`mjc
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +17,7 @@ import mujoco
 import numpy as np
 
 from mjcont.arguments import checked
-from mjcont.errors import ModelError, ModelWarning, ParameterError, unknown_name
+from mjcont.errors import ModelError, ModelWarning, ParameterError, unknown_name, warn
 from mjcont.models import assets, loading
 from mjcont.models.bushsections import (
     BUSH_CLASS,
@@ -195,7 +194,7 @@ def _present(
     spec, notes = loading.parse_present(text, folder, label)
     compiled = loading.compile_spec(spec)
     for note in notes:
-        warnings.warn(note, ModelWarning, stacklevel=3)
+        warn(note, ModelWarning)
     return spec, compiled, notes
 
 
@@ -252,7 +251,7 @@ def _warn_if_open(model: mujoco.MjModel, closure: Closure) -> None:
             if between
             else ""
         )
-        warnings.warn(f"{closure.kind} '{closure.name}' is open {', '.join(found)}.{why}", stacklevel=4)
+        warn(f"{closure.kind} '{closure.name}' is open {', '.join(found)}.{why}", UserWarning)
 
 
 def _axes(basis: np.ndarray, normal: np.ndarray | None) -> tuple[list[Axis], list[Axis]]:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Iterator
 from itertools import islice
 
 import mujoco
 import numpy as np
 
-from mjcont.errors import ModelError, ModelWarning, ParameterError
+from mjcont.errors import ModelError, ModelWarning, ParameterError, warn
 from mjcont.models.actuators import actuator_name, follower, integrator
 from mjcont.models.numbers import refuse_invalid
 from mjcont.models.sources import MOST_FREEDOMS
@@ -130,7 +129,7 @@ def friction_notes(model: mujoco.MjModel, friction: str) -> list[str]:
                 '(friction="frictionless")'
             )
         notes.append(f"{what}: equilibria and their stability are those without it; time histories keep it")
-        warnings.warn(notes[-1], ModelWarning, stacklevel=4)
+        warn(notes[-1], ModelWarning)
     if contacts:
         what = f"friction of contacts ({_listing(contacts)}) carries no load at rest in MuJoCo, where it creeps"
         if friction == "refuse":

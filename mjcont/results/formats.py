@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 import h5py
 
 from mjcont.arguments import checked
-from mjcont.errors import MjcontError, ResultFileError, ResultWarning
+from mjcont.errors import MjcontError, ResultFileError, ResultWarning, warn
 from mjcont.outside.sealing import Damaged, opened, refuse_broken_seal
 from mjcont.results import histories, loadpaths, sweeps
 from mjcont.results.branchfiles import read_branch
@@ -62,9 +61,9 @@ def load(path: str | Path, problem: Model | None = None) -> Any:
         except _DAMAGED as error:
             raise ResultFileError(f"result file '{path}' is incomplete or damaged: {error}") from error
     if not sealed:
-        warnings.warn(
+        warn(
             f"result file '{path}' has no checksums (an older mjcont wrote it): damaged numbers would not be noticed",
-            ResultWarning, stacklevel=2,
+            ResultWarning,
         )
     return found
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-import warnings
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import metadata
 from typing import Any, Protocol, Self
 
-from mjcont.errors import BoundsError, MjcontError, RangeWarning, unknown_name
+from mjcont.errors import BoundsError, MjcontError, RangeWarning, unknown_name, warn
 from mjcont.numerics.equations.problem import Array, Equations, Values
 from mjcont.results.quantities import Observable, Parameter, check_name, column_of, finite_pair
 
@@ -151,7 +150,7 @@ def warn_outside(problem: Parametrised, given: Mapping[str, Sequence[float] | fl
     for name, values in given.items():
         said = problem.parameter(name).outside(*(values if isinstance(values, Sequence) else (values,)))
         if said:
-            warnings.warn(said, RangeWarning, stacklevel=2)
+            warn(said, RangeWarning)
 
 
 @cache

@@ -11,13 +11,12 @@ import hashlib
 import json
 import os
 import re
-import warnings
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from mjcont.errors import MjcontError, ResultFileError, ResultWarning
+from mjcont.errors import MjcontError, ResultFileError, ResultWarning, warn
 from mjcont.outside.saving import flush_folder, write_all
 
 FORMAT = "mjcont sweep journal 2"
@@ -149,9 +148,9 @@ class Journal:
                 raise ResultFileError(f"{self.path} is damaged: line {number} has a case that is there already")
             records[record["case"]] = record
         if not sealed:
-            warnings.warn(
+            warn(
                 f"{self.path} has no checksums (an older mjcont began it): damage to its numbers would not be noticed",
-                ResultWarning, stacklevel=4,
+                ResultWarning,
             )
         self.header, self.records = found, records
 

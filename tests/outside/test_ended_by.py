@@ -22,7 +22,7 @@ def test_a_signal_amid_the_import_of_a_compiled_module_ends_as_any_other(monkeyp
         raise ImportError("no such module")
 
     parsed = argparse.Namespace(command=command)
-    monkeypatch.setattr(cli, "parser", lambda commands: argparse.Namespace(parse_args=lambda argv: parsed))
+    monkeypatch.setattr(cli, "parser", lambda: argparse.Namespace(parse_args=lambda argv: parsed))
     if status is None:
         with pytest.raises(ImportError, match="no such module"):
             cli.main([])
