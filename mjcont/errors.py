@@ -10,6 +10,7 @@ import os
 import sys
 import warnings
 from collections.abc import Iterable
+from types import FrameType
 
 _PACKAGE = os.path.dirname(__file__) + os.sep
 
@@ -67,11 +68,14 @@ class ResultWarning(UserWarning):
 
 
 def warn(message: str, category: type[Warning]) -> None:
-    """Give a warning that names the line of the user's own that led to it: the first outside this package."""
-    frame, level = sys._getframe(1), 2
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
+    """Give a warning that names the line of the user's own that led to it: the one that called into this package."""
+    frame: FrameType | None = sys._getframe(1)
+    level, outermost = 2, 1
+    while frame is not None:  # other packages may lie between ours
+        if frame.f_code.co_filename.startswith(_PACKAGE):
+            outermost = level
         frame, level = frame.f_back, level + 1
-    warnings.warn(message, category, stacklevel=level)
+    warnings.warn(message, category, stacklevel=outermost + 1)
 
 
 def leaves_domain(error: Exception) -> bool:
