@@ -28,8 +28,8 @@ from mjcont.results.points import Point, show
 from mjcont.vectorfield import VectorField
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def continue_response(
     problem: Model | OrbitPoint | SpecialOrbit | Orbit,
     parameter: str | None = None,
