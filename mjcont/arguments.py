@@ -46,7 +46,7 @@ def checked(verb: Callable[P, R]) -> Callable[P, R]:
 
     @functools.cache
     def wanted() -> dict[str, list[_Kind]]:
-        known = _Known({**vars(builtins), **verb.__globals__})
+        known = _Known({**vars(builtins), **inspect.unwrap(verb).__globals__})
         return {name: _kinds(hint) for name, hint in typing.get_type_hints(verb, localns=known).items()}
 
     @functools.wraps(verb)

@@ -6,12 +6,13 @@ Failure of the numerics is not here: a branch that cannot go on says so in its s
 from __future__ import annotations
 
 import difflib
+import os
 import sys
 import warnings
 from collections.abc import Iterable
+from types import FrameType
 
-# packages whose frames lie between a user's call and what mjcont says of it
-_INSIDE = ("mjcont", "numpy", "contextlib", "functools")
+_PACKAGE = os.path.dirname(__file__) + os.sep
 
 
 class MjcontError(Exception):
@@ -66,12 +67,15 @@ class ResultWarning(UserWarning):
     """A stored result whose damage would not be seen: it was written without checksums."""
 
 
-def warn(message: str, category: type[Warning] = UserWarning) -> None:
-    """Warn where mjcont was called from, however deep inside it the reason was found."""
-    frame, level = sys._getframe(1), 2
-    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] in _INSIDE:
+def warn(message: str, category: type[Warning]) -> None:
+    """Give a warning that names the line of the user's own that led to it: the one that called into this package."""
+    frame: FrameType | None = sys._getframe(1)
+    level, outermost = 2, 1
+    while frame is not None:  # other packages may lie between ours
+        if frame.f_code.co_filename.startswith(_PACKAGE):
+            outermost = level
         frame, level = frame.f_back, level + 1
-    warnings.warn(message, category, stacklevel=level)
+    warnings.warn(message, category, stacklevel=outermost + 1)
 
 
 def leaves_domain(error: Exception) -> bool:

@@ -196,3 +196,10 @@ def test_a_curve_from_a_branch_point_of_its_own_says_what_follows_the_others() -
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert len(mc.bifurcation_diagram(pitchfork, "a", (-1.0, 1.0), point)) == 2
+
+
+def test_a_warning_names_the_line_of_the_users_own_however_deep_it_arises() -> None:
+    mechanism = mc.Mechanism.from_xml("overcentre")
+    with pytest.warns(mc.RangeWarning) as said:
+        mc.continue_equilibria(mechanism, "gravity_angle", (-20.0, 20.0), max_points=2)
+    assert said[0].filename == __file__

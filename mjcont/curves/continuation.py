@@ -59,8 +59,8 @@ def start_from(
     return problem.start_state(keyframe, state), values
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def find_equilibrium(
     problem: Model, start: Mapping[str, float] | Point | None = None, *, keyframe: str | None = None, state: Any = None
 ) -> Point:
@@ -110,8 +110,8 @@ def _start_name(problem: Model, start: Any, keyframe: str | None, state: Any) ->
     return "the model's initial pose" if problem.second_order else "u0"
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def continue_equilibria(
     problem: Model,
     parameter: str,

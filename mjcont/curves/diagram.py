@@ -43,8 +43,8 @@ _AS_LONG = 1e-3
 _CLUSTER = 0.05
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def switch_branches(
     point: SpecialPoint,
     bounds: tuple[float, float] | None = None,
@@ -173,8 +173,8 @@ def _mirrored(system: System, minus: Sequence[Any], plus: Sequence[Any]) -> bool
     return True
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def bifurcation_diagram(
     problem: Model,
     parameter: str,

@@ -38,8 +38,8 @@ _ENDS = ("first", "last")
 _SAME = 1e-4
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def extend(
     branch: Branch,
     bounds: tuple[float, float] | Mapping[str, tuple[float, float]] | None = None,

@@ -34,8 +34,8 @@ def default_tolerance(value: float, unit: str, bounds: tuple[float, float]) -> f
     return PER_CENT * abs(value) if value else 0.5 * PER_CENT * (bounds[1] - bounds[0])
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def sensitivities(
     point: Point,
     parameters: str | Sequence[str] | None = None,

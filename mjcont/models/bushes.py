@@ -251,7 +251,7 @@ def _warn_if_open(model: mujoco.MjModel, closure: Closure) -> None:
             if between
             else ""
         )
-        warn(f"{closure.kind} '{closure.name}' is open {', '.join(found)}.{why}")
+        warn(f"{closure.kind} '{closure.name}' is open {', '.join(found)}.{why}", UserWarning)
 
 
 def _axes(basis: np.ndarray, normal: np.ndarray | None) -> tuple[list[Axis], list[Axis]]:

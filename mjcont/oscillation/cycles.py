@@ -33,8 +33,8 @@ _FIRST = 1e-2
 Start = Mapping[str, float] | Point | History
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def continue_cycles(
     origin: SpecialPoint | OrbitPoint | Orbit | Model,
     parameter: str | None = None,
@@ -163,8 +163,8 @@ def _from_motion(
     return run(CYCLES, system, entries, read, "the cycle on which a motion settles", stop, progress)
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def find_cycle(
     problem: Model, start: Start | None = None, *, keyframe: str | None = None, state: Any = None, **options: Any
 ) -> Orbit:

@@ -39,8 +39,8 @@ def linearized(point: Point, wrt: Sequence[str] = ()) -> tuple[Pencil, Array]:
     return model.pencil(point.state, point.parameters, local.jac), local.par
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def modes(point: Point) -> Modes:
     """Return frequencies, damping ratios and shapes of the modes at an equilibrium, stable or not.
 

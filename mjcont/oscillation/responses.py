@@ -33,8 +33,8 @@ AnyOrbit = OrbitPoint | SpecialOrbit | Orbit
 Start = Mapping[str, float] | Point | AnyOrbit
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def continue_response(
     problem: Model | AnyOrbit,
     parameter: str | None = None,

@@ -23,8 +23,8 @@ from mjcont.results.points import Point
 _COUNT, _BEYOND = 400, 4.0
 
 
-@np.errstate(all="ignore")
 @checked
+@np.errstate(all="ignore")
 def transfer(
     point: Point,
     input: str,
