@@ -55,8 +55,9 @@ def checked(verb: Callable[P, R]) -> Callable[P, R]:
             given = signature.bind(*args, **kwargs).arguments
         except TypeError:
             return verb(*args, **kwargs)  # Python says itself what is missing, or one too many
-        owner = type(next(iter(args), None)).__name__ + "." if "self" in signature.parameters else ""
-        called = owner.removesuffix(".") if verb.__name__ == "__init__" else owner + verb.__name__
+        owner = type(args[0]).__name__ if "self" in signature.parameters else ""
+        short = {"__init__": owner, "__getitem__": f"{owner}[...]"}
+        called = short.get(verb.__name__, f"{owner}.{verb.__name__}".removeprefix("."))
         for name, value in given.items():
             kind, named = signature.parameters[name].kind, [(name, value)]
             if kind is inspect.Parameter.VAR_POSITIONAL:
@@ -105,9 +106,9 @@ def _shown(value: Any) -> str:
     """Return a value as a message shows it: its kind, and itself where that is short."""
     if value is None or isinstance(value, type):
         return "None" if value is None else f"the class {value.__name__}"
-    text = " ".join(repr(value).split())
-    plain = isinstance(value, str | bytes | int | float | complex | list | tuple | dict) and len(text) <= _LONGEST
-    return f"the {type(value).__name__}" + (f" {text}" if plain else "")
+    plain = isinstance(value, str | bytes | int | float | complex | list | tuple | dict)
+    text = " ".join(repr(value).split()) if plain else ""
+    return f"the {type(value).__name__} {text if len(text) <= _LONGEST else ''}".rstrip()
 
 
 def _kinds(hint: Any) -> list[_Kind]:

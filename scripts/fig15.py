@@ -18,6 +18,7 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 import mjcont as mc
+from mjcont.drawing.axes import readable
 from mjcont.drawing.plotting import COLORS, draw_curve, mark, save_figure, set_panel_title
 from mjcont.paper.reproduce import Finding, run_script, whole
 
@@ -60,7 +61,7 @@ def _draw_cusps(ax: Any, cusps: Mapping[float, mc.Branch], found: Mapping[float,
         for case in found[n]:
             text = f"{n:g}" if case.degrees > 0 else ""
             mark(ax, case.degrees, case.cusp["F_ul"], "CP", text, color=color)
-    ax.set(xlabel="gravity angle [deg]", ylabel="F_ul at the cusp [N]", xlim=np.degrees([-REACH, REACH]))
+    ax.set(xlabel="gravity angle [deg]", ylabel=f"{readable('F_ul')} at the cusp [N]", xlim=np.degrees([-REACH, REACH]))
     set_panel_title(ax, "(d)  cusps at load factors 0.5, 1, 2.5")
 
 

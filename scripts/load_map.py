@@ -18,7 +18,7 @@ from _loci import Case
 from _rigid_gear import RigidGear
 
 import mjcont as mc
-from mjcont.drawing.axes import axis_label
+from mjcont.drawing.axes import axis_label, readable
 from mjcont.drawing.plotting import COLORS, new_figure, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script
@@ -114,7 +114,7 @@ def _draw(study: Study, path: Path) -> None:
         set_panel_title(surface, title)
         if quantity == "F_ret":
             surface.zaxis.set_major_formatter(lambda value, _: f"{value / 1e3:.0f}")
-            surface.set_zlabel("F_ret [kN]", labelpad=8)
+            surface.set_zlabel(axis_label("F_ret", "kN"), labelpad=8)
     _draw_lines(axes[2, 1], study)
     save_figure(figure, path)
 
@@ -127,7 +127,7 @@ def _draw_lines(ax: Any, study: Study) -> None:
         ax.plot(np.degrees(angles), study.cusps["F_ul"][:, i], "o", color=color, markersize=4.0, label=f"n = {load:g}")
         ax.plot(np.degrees(fine), study.rigid.unlock(fine, load), "--", color=color, linewidth=1.2)
     ax.axvline(np.degrees(study.rigid.neutral), color="#333333", linestyle=":", linewidth=1.0)
-    ax.set(xlabel=axis_label("gravity_angle", "deg"), ylabel="F_ul at the cusp [N]")
+    ax.set(xlabel=axis_label("gravity_angle", "deg"), ylabel=f"{readable('F_ul')} at the cusp [N]")
     ax.legend(frameon=True, framealpha=0.9, edgecolor="none", fontsize=8, loc="upper left")
     set_panel_title(ax, "(f)  F_ul at the cusp; dashed: rigid pins")
 

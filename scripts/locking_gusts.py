@@ -33,7 +33,7 @@ from _unlocking import (
 )
 
 import mjcont as mc
-from mjcont.drawing.axes import axis_label
+from mjcont.drawing.axes import axis_label, readable
 from mjcont.drawing.plotting import COLORS, new_figure, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script
@@ -131,7 +131,7 @@ def _draw(study: Study, path: Path) -> None:
     stowed = ((study.held, COLORS[0], "470 kN, no stop"), (study.stopped, COLORS[1], "no force, a stop"))
     for histories, color, name in stowed:
         axes[1, 1].plot(study.velocities, _lowest(histories), "o-", color=color, label=name)
-    axes[1, 1].set(xlabel="peak gust velocity [m/s], up positive", ylabel="lowest theta_ov [deg]")
+    axes[1, 1].set(xlabel="peak gust velocity [m/s], up positive", ylabel=f"lowest {readable('theta_ov')} [deg]")
     axes[1, 1].legend(title="stowed under", frameon=False, fontsize=8.0, title_fontsize=8.0)
     set_panel_title(axes[1, 1], "(d)  locked, no unlock force")
     save_figure(figure, path)

@@ -39,7 +39,7 @@ from _unlocking import (
 )
 
 import mjcont as mc
-from mjcont.drawing.axes import axis_label
+from mjcont.drawing.axes import axis_label, readable
 from mjcont.drawing.plotting import COLORS, new_figure, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script
@@ -170,7 +170,7 @@ def _draw_peaks(ax: Any, study: Study) -> None:
         ax.plot(chart.velocities, peaks[:, k], "o-", color=color, markersize=4.0,
                 label=f"gust from {ARRIVALS[k]:g} s")
     ax.axhline(study.cusp["F_ret"] / 1e3, color="#333333", linestyle=":", label="cusp")
-    ax.set(xlabel="peak gust velocity [m/s], up positive", ylabel="peak F_ret [kN]")
+    ax.set(xlabel="peak gust velocity [m/s], up positive", ylabel=f"peak {readable('F_ret')} [kN]")
     ax.legend(frameon=True, framealpha=0.9, edgecolor="none", fontsize=8)
     set_panel_title(ax, f"(e)  peak retraction force, position measure, {chart.unlock[row]:.0f} N")
 

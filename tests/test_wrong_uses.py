@@ -152,6 +152,8 @@ def test_a_wrong_kind_of_thing_is_told_in_a_sentence(use: str, tmp_path: Path, m
         (lambda: mc.add_bushes(TRUSS), "model must be a string, a path or an MjSpec, got the Mechanism"),
         (lambda: TRUSS.observe("sum", "x + z"), "Mechanism.observe: function must be a function, got the str 'x + z'"),
         (lambda: mc.sweep(FOLD, SPREAD, out="x"), 'returns, or {"fold": branch.point("LP1")}'),
+        (lambda: DIAGRAM["LP1"], "Diagram[...]: index must be a whole number, got the str 'LP1'"),
+        (lambda: HISTORY[3], 'a name is a string such as "F", got the int 3'),
         (lambda: BRANCH[10**6], "row 1000000 of "),
         (lambda: mc.plot("a.h5", x="F", y="z"),
          "plot takes branches one by one, as in plot(branch, locus, x=..., y=...); got a str"),

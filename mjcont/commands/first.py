@@ -67,7 +67,8 @@ def init(args: argparse.Namespace) -> int:
 def compare(args: argparse.Namespace) -> int:
     """Tell what changed between two models and in their answers, and draw both."""
     from mjcont.commands.facts import as_json, of_comparison
-    from mjcont.commands.progress import Told, gauge
+    from mjcont.commands.progress import gauge
+    from mjcont.commands.told import Told
     from mjcont.drawing.plotting import save_figure
     from mjcont.studies.compare import compare as compared
 
@@ -89,7 +90,8 @@ def compare(args: argparse.Namespace) -> int:
 def answer(args: argparse.Namespace) -> int:
     """Run a study and tell what its table [answer] asks."""
     from mjcont.commands.facts import as_json, of_answers
-    from mjcont.commands.progress import Told, gauge
+    from mjcont.commands.progress import gauge
+    from mjcont.commands.told import Told
     from mjcont.studies.answers import answers
     from mjcont.studies.study import load_study, run_study
 

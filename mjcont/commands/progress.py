@@ -8,19 +8,12 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TextIO
 
 from mjcont.outside.terminal import Live, live_stream
-from mjcont.results.points import show
-from mjcont.studies.reporter import Range, Reporter
-
-if TYPE_CHECKING:
-    from mjcont.curves.collect import Found
 
 _REDRAW_SECONDS = 0.2
 # what is over sooner says nothing, and nobody guesses from less
@@ -59,7 +52,7 @@ class Gauge:
     def __init__(self, stream: TextIO | None = None, clock: Callable[[], float] = time.monotonic) -> None:
         self._live = Live(stream) if stream is not None else None
         self._clock = clock
-        self._began = clock()
+        self._began = self._since = clock()
         self._over = threading.Event()
         self._writing = threading.Lock()
         self._thread: threading.Thread | None = None
@@ -81,18 +74,22 @@ class Gauge:
 
     def begin(self, what: str) -> None:
         """Begin with another piece of work."""
-        self._began, self._before, self._share = self._clock(), math.nan, math.nan
+        self._began = self._since = self._clock()
+        self._before = self._share = math.nan
         self._what, self._details = what, ""
 
     def tell(self, details: str, share: float = math.nan) -> None:
         """Say how far it is: in words, and which share is done where that is known."""
-        if math.isnan(self._before):
-            self._before = share
+        now = self._clock()
+        if math.isnan(self._before) and now - self._began >= _GUESS_SECONDS:  # it was done since the beginning
+            self._before, self._since = 0.0, self._began
+        elif math.isnan(self._before) or share < self._share:  # it was there, or is a share of other work
+            self._before, self._since = share, now
         self._details, self._share = details, share
 
     def count(self, done: float, total: float, noun: str = "", more: str = "") -> None:
         """Say how many of all are done."""
-        self.tell(f"{done:g} of {total:g}{noun}{more}", done / total if total else math.nan)
+        self.tell(f"{done:.12g} of {total:.12g}{noun}{more}", done / total if total else math.nan)
 
     def end(self) -> None:
         """Wipe the line: that piece of work is over."""
@@ -113,7 +110,8 @@ class Gauge:
         if not self._what or seconds < _QUIET_SECONDS:
             return ""
         details = f"{self._details}, " if self._details else ""
-        return f"{self._what}: {details}{spoken(seconds)}{time_left(self._share, seconds, self._before)}"
+        left = time_left(self._share, self._clock() - self._since, self._before)
+        return f"{self._what}: {details}{spoken(seconds)}{left}"
 
     def _write(self) -> None:
         while not self._over.wait(_REDRAW_SECONDS):
@@ -130,72 +128,3 @@ def gauge(what: str = "", *, quiet: bool = False) -> Iterator[Gauge]:
         if what:
             shown.begin(what)
         yield shown
-
-
-class Told(Reporter):
-    """Tells how a study goes: on a terminal each result as it comes, and summaries as they are done.
-
-    Parameters
-    ----------
-    shown : Gauge
-    say : callable, optional
-        Prints lines; default nothing is printed.
-
-    Attributes
-    ----------
-    results, plots : what there is so far, results with their files.
-    """
-
-    def __init__(self, shown: Gauge, say: Callable[[str], None] | None = None) -> None:
-        self._shown, self._say = shown, say or (lambda text: None)
-        self._ranges: Mapping[str, Range] = {}
-        self._reached: dict[str, tuple[float, float]] = {}
-        self._found: Counter[str] = Counter()
-        self.results: list[tuple[Any, Sequence[Path]]] = []
-        self.plots: list[Path] = []
-
-    def started(self, name: str, task: str, place: tuple[int, int], ranges: Mapping[str, Range]) -> None:
-        """Print what is going to be computed."""
-        self._ranges, self._reached, self._found = ranges, {}, Counter()
-        self._say(f"{name}: {task}")
-        number, count = place
-        self._shown.begin(f"{name} (result {number} of {count})" if count > 1 else name)
-
-    def point(self, count: int, found: Found) -> None:
-        """Show the number of points, where the curve is, and what was found on it."""
-        self._found[found.kind] += bool(found.kind)
-        words = [f"{count} points"]
-        shares = [self._swept(name, value) for name, value in found.parameters.items() if name in self._ranges]
-        words += [f"{name} = {show(value, self._ranges[name].unit, 4)}"
-                  for name, value in found.parameters.items() if name in self._ranges]
-        words += [f"{number} {kind}" for kind, number in self._found.items() if kind and number]
-        self._shown.tell(", ".join(words), max(shares, default=math.nan))
-
-    def _swept(self, name: str, value: float) -> float:
-        """Return which share of a parameter's range a curve has been through: a guess of how far it is."""
-        low, high = self._reached.get(name, (value, value))
-        self._reached[name] = low, high = min(low, value), max(high, value)
-        span = self._ranges[name]
-        return (high - low) / (span.high - span.low)
-
-    def step(self, done: float, total: float) -> None:
-        """Show how much of a known amount is done."""
-        if total:
-            self._shown.tell(f"{done:g} of {total:g}" if done == int(done) else f"{100.0 * done / total:.0f} %",
-                             done / total)
-
-    def finished(self, result: Any, files: Sequence[Path]) -> None:
-        """Print the result's summary and where it is stored."""
-        self.stopped()
-        self.results.append((result, files))
-        self._say(str(result))
-        self._say("  written: " + (", ".join(str(f) for f in files) or "nothing") + "\n")
-
-    def plotted(self, file: Path) -> None:
-        """Print where the plot is."""
-        self.plots.append(file)
-        self._say(f"plot: {file}")
-
-    def stopped(self) -> None:
-        """Wipe the line."""
-        self._shown.end()

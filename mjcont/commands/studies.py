@@ -41,7 +41,8 @@ def register(command: Command) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run a study."""
     from mjcont.commands.facts import as_json, of_study
-    from mjcont.commands.progress import Told, gauge
+    from mjcont.commands.progress import gauge
+    from mjcont.commands.told import Told
     from mjcont.studies.study import interruption, load_study, run_study
 
     with warnings_as_lines():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -64,7 +64,8 @@ def show_axis(axis: Axis, name: str, unit: str, wished: str | Sequence[str] = ()
     """Label an axis, whose numbers are in `unit` (radians as degrees, if so asked), and show them in a unit wished for.
 
     Without a wish that fits, large forces are shown in kN or MN and short lengths in mm, unless the axis is
-    logarithmic. When somebody writes another label, the numbers are those drawn again.
+    logarithmic. When somebody changes the scale or the numbers, the label is that of the numbers drawn again; when
+    somebody writes another label, the numbers are those drawn.
 
     Raises
     ------
@@ -77,17 +78,40 @@ def show_axis(axis: Axis, name: str, unit: str, wished: str | Sequence[str] = ()
     if shown == drawn and axis.get_scale() == "linear":
         larger, size = sized(drawn[0], float(np.abs(axis.get_view_interval()).max()))
         shown = larger, drawn[1] * size
-    label = axis_label(name, shown[0], False)
+    label, plain = (axis_label(name, u, False) for u in (shown[0], drawn[0]))
     axis.set_label_text(label)
+    which: str = axis.axis_name  # type: ignore[attr-defined]
+    for old in [a for a in axis.axes.artists if a.get_label() == f"_unit of {which}"]:
+        old.remove()
     if shown != drawn:
-        _show_times(axis, shown[1] / drawn[1], label)
+        _show_times(axis, which, shown[1] / drawn[1], label)
+        _keep(axis, which, label, plain)
 
 
-def _show_times(axis: Axis, factor: float, label: str) -> None:
+def _keep(axis: Axis, which: str, label: str, plain: str) -> None:
+    """Take a label back where its numbers have been taken back, by a logarithmic scale or other ticks."""
+    from matplotlib.artist import Artist
+
+    formatter = axis.get_major_formatter()
+
+    class Keeper(Artist):
+        """Draws nothing, before anything else is drawn."""
+
+        zorder = -1e6
+
+        def draw(self, renderer: Any) -> None:
+            if axis.get_major_formatter() is not formatter and axis.get_label_text() == label:
+                axis.set_label_text(plain)
+
+    keeper = Keeper()
+    keeper.set_label(f"_unit of {which}")
+    keeper.set_in_layout(False)
+    axis.axes.add_artist(keeper)
+
+
+def _show_times(axis: Axis, which: str, factor: float, label: str) -> None:
     """Show the numbers of an axis times a factor, as long as it, or one that it shares its scale with, has a label."""
     from matplotlib.ticker import AutoLocator, FuncFormatter
-
-    which = axis.axis_name  # type: ignore[attr-defined]
 
     def size() -> float:
         together = getattr(axis.axes, f"get_shared_{which}_axes")().get_siblings(axis.axes)

@@ -13,6 +13,7 @@ from mjcont.drawing.picture import picture
 from mjcont.drawing.plotting import COLORS, LINE_STYLES, new_figure, set_panel_title
 from mjcont.drawing.poses import mechanism_of
 from mjcont.drawing.sketch import padded, render
+from mjcont.errors import MjcontError
 
 if TYPE_CHECKING:
     from mjcont.results.linear import Mode, Transfer
@@ -23,6 +24,8 @@ _BACK, _FRONT = "#b9c6d6", "#b8b8b8"
 
 def draw_modes(chosen: Sequence[Mode], cols: int, plane: str | None) -> Any:
     """Draw a panel a mode: rest in grey, the other end of its swing in blue behind it, the mode on top."""
+    if not chosen:
+        raise MjcontError("there are no modes to draw")
     point = chosen[0].point
     mechanism, values = mechanism_of(point), point.parameters
     shown = [

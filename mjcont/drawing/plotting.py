@@ -39,6 +39,7 @@ GREY = "#6e6e6e"
 LINE_STYLES: Mapping[str, Any] = {"stable": "-", "unstable": (0, (4.5, 2.0)), "marginal": (0, (1.0, 1.4))}
 MARKERS: Mapping[str, tuple[str, float]] = {k.code: k.marker for k in KINDS.values() if k.marker is not None}
 _MARKER = ("p", 6.0)  # of any other kind
+_STROKES = "x+1234|_"  # markers without a face
 STYLE: Any = {
     "axes.axisbelow": True,
     "axes.edgecolor": "#333333",
@@ -292,7 +293,7 @@ def mark(
     """Draw one special point with its label, which `place_labels` moves off the curves."""
     shape, size = MARKERS.get(kind, _MARKER)
     ink = GREY if kind == "UZ" else "black"
-    edge = ink if shape == "x" or hollow else "white"
+    edge = ink if shape in _STROKES or hollow else "white"
     ax.plot([x], [y], marker=shape, markersize=size, linestyle="none", color=ink, zorder=4, label=POINT, gid=str(size),
             markerfacecolor="white" if hollow else ink, markeredgecolor=edge,
             markeredgewidth=1.3 if edge == ink else 0.6)

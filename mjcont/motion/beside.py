@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mjcont.curves.collect import Amount
 from mjcont.motion.integrating import follow
 from mjcont.numerics.equations.problem import Array
 from mjcont.oscillation.walks import flow_for
@@ -40,12 +41,19 @@ def check_of(
 
 
 def check_beside(
-    branch: Branch, rows: Sequence[int], amplitude: float, tolerance: float, resolution: float, max_steps: int
+    branch: Branch, rows: Sequence[int], amplitude: float, tolerance: float, resolution: float, max_steps: int,
+    progress: Amount | None = None,
 ) -> list[Check]:
     """Check rows of a curve of orbits, or of rests of a vector field."""
-    if not isinstance(branch, CycleBranch):
-        return [_check_rest(branch, row, amplitude, tolerance, resolution, max_steps) for row in rows]
-    return [_check_orbit(branch, row, _LARGER * amplitude, tolerance, resolution, max_steps) for row in rows]
+    checks = []
+    for row in rows:
+        if isinstance(branch, CycleBranch):
+            checks.append(_check_orbit(branch, row, _LARGER * amplitude, tolerance, resolution, max_steps))
+        else:
+            checks.append(_check_rest(branch, row, amplitude, tolerance, resolution, max_steps))
+        if progress is not None:
+            progress(len(checks), len(rows))
+    return checks
 
 
 # -- beside orbits --------------------------------------------------------------------------------------------

@@ -22,6 +22,7 @@ import numpy as np
 from mujoco.batch import Batch
 
 from mjcont.arguments import checked
+from mjcont.curves.collect import Amount
 from mjcont.curves.continuation import hold_rigid_modes
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.mechanism.batches import load_side
@@ -79,6 +80,7 @@ def verify_stability(
     resolution: float = 1e-3,
     max_steps: int = 200_000,
     nthread: int | None = None,
+    progress: Amount | None = None,
 ) -> Branch:
     """Check the stability of points of a branch by simulation; the branch returned carries the certificate.
 
@@ -100,6 +102,7 @@ def verify_stability(
         A point is unresolved if |Re s| times the time that `max_steps` reach is less.
     max_steps : int
         Steps per point. The step is set by the fastest mode and by the accuracy of the critical one.
+    progress : called as progress(done, all), a point each.
 
     Returns
     -------
@@ -117,9 +120,10 @@ def verify_stability(
         raise ParameterError("n, amplitude, tolerance and resolution must be positive")
     rows = _rows(branch, n, rows)
     if not isinstance(branch.problem, Mechanism) or branch.kind != "equilibria":
-        checks = check_beside(branch, rows, amplitude, tolerance, resolution, max_steps)
+        checks = check_beside(branch, rows, amplitude, tolerance, resolution, max_steps, progress)
     else:
-        checks = _check_rests(branch, branch.problem, rows, amplitude, tolerance, resolution, max_steps, nthread)
+        options = amplitude, tolerance, resolution, max_steps, nthread, progress
+        checks = _check_rests(branch, branch.problem, rows, *options)
     units = {name: branch.unit(name) for name in branch.free}
     certificate = Certificate(tuple(sorted(checks, key=lambda c: c.index)), tolerance, resolution, units)
     return replace(branch, certificate=certificate)
@@ -134,6 +138,7 @@ def _check_rests(
     resolution: float,
     max_steps: int,
     nthread: int | None,
+    progress: Amount | None,
 ) -> list[Check]:
     """Check equilibria of a mechanism."""
     first = branch.row(0)
@@ -148,6 +153,8 @@ def _check_rests(
     with quiet:
         for group in _groups(probes):
             rates = _measure(mechanism, group, nthread or os.cpu_count() or 1)
+            if progress is not None:
+                progress(len(checks) + len(group), len(rows))
             checks += [_judge(branch, p, *r, tolerance) for p, r in zip(group, rates, strict=True)]
     return checks
 

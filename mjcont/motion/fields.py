@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.curves.collect import Amount
 from mjcont.curves.continuation import start_from
 from mjcont.errors import ParameterError
 from mjcont.motion.integrating import Followed, follow
@@ -35,6 +36,7 @@ class _Motion:
     times: Array
     rest: float | None
     max_steps: int
+    progress: Amount | None
 
     def at(self, t: float) -> dict[str, float]:
         return {**self.values, **{n: s.at(t) for n, s in self.signals.items()}}
@@ -50,7 +52,7 @@ class _Motion:
 
         with np.errstate(all="ignore"):
             return follow(self.rate, self.state, self.times, rtol, _SMALL * rtol * scale, self.max_steps,
-                          calm=calm if rest is not None else None)
+                          calm=calm if rest is not None else None, progress=self.progress)
 
 
 def simulate_field(
@@ -64,6 +66,7 @@ def simulate_field(
     until_rest: float | None,
     samples: int,
     max_steps: int,
+    progress: Amount | None = None,
 ) -> History:
     """Return the motion of a vector field, as `simulate` says.
 
@@ -83,7 +86,7 @@ def simulate_field(
     times = np.linspace(0.0, duration, max(samples, 2))
     for name, signal in signals.items():
         check_range(field.parameter(name), signal.series(times), times)
-    motion = _Motion(field, field.values(values), signals, x, times, until_rest, max_steps)
+    motion = _Motion(field, field.values(values), signals, x, times, until_rest, max_steps, progress)
     run, rtol, error = motion.followed(tol or _RTOL), tol or _RTOL, None
     while tol is not None and run.ended in ("done", "at rest") and rtol > _FINEST:
         rtol *= _FINER

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from mjcont.arguments import checked
+from mjcont.curves.collect import Amount
 from mjcont.curves.continuation import start_from
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
@@ -52,6 +53,7 @@ class _Plan:
     rest: float | None
     max_steps: int
     nthread: int
+    progress: Amount | None = None
 
 
 @dataclass(slots=True)
@@ -81,6 +83,7 @@ def simulate(
     until_rest: float | None = None,
     samples: int = 2000,
     max_steps: int = _MAX_STEPS,
+    progress: Amount | None = None,
 ) -> History:
     """Return the motion of a model under inputs that vary with time.
 
@@ -92,8 +95,7 @@ def simulate(
         Values between given times are interpolated linearly, and held before the first and after the last. A
         controller is any callable of two arguments: it sees observables by name, in SI and radians, with attributes
         `state` and `velocity`; its output saturates at the actuator's range. An object is copied for every run.
-    duration : float, optional
-        In s; default 10 s, or 10 periods of an orbit.
+    duration : in s, optional; default 10 s, or 10 periods of an orbit.
     start : dict of parameter values, or a point
         With `keyframe` or `state` it says where the motion begins; at rest unless `velocity` (nv,) is given.
     timestep : float, optional
@@ -104,12 +106,12 @@ def simulate(
     tol : float, optional
         Halve the step until that changes the positions, at every sample, by less than `tol` times the largest
         excursion of the motion (rotations in rad, lengths in sizes of the model). Without it the step is as given.
-    control_step : float, optional
-        In s, between samples of controllers; default the model's own time step.
+    control_step : in s, optional, between samples of controllers; default the model's own time step.
     until_rest : float, optional
         End when every speed (rad/s, or sizes of the model per s) has stayed below this over 1 s.
     samples, max_steps : int
         About how many samples are recorded, evenly spaced; steps that a run may take, a longer one is "stalled".
+    progress : called as progress(time, duration); with `tol` anew for each step that is tried.
 
     Returns
     -------
@@ -123,7 +125,7 @@ def simulate(
     given = {"inputs": inputs, "start": start, "keyframe": keyframe, "state": state, "velocity": velocity}
     model, case, length = _begun(problem, given)
     steps = {"timestep": timestep, "integrator": integrator, "control_step": control_step}
-    ends = {"tol": tol, "until_rest": until_rest, "samples": samples, "max_steps": max_steps}
+    ends = {"tol": tol, "until_rest": until_rest, "samples": samples, "max_steps": max_steps, "progress": progress}
     return _simulated(model, case, duration if duration is not None else length, steps, ends)
 
 
@@ -179,6 +181,7 @@ def simulate_many(
     samples: int = 2000,
     max_steps: int = _MAX_STEPS,
     nthread: int | None = None,
+    progress: Amount | None = None,
 ) -> list[History]:
     """Return the motions of many cases, stepped together on all processors.
 
@@ -214,7 +217,7 @@ def simulate_many(
     controlled = any(c.controllers for c in made)
     grid = _grid(duration, timestep or own, (control_step or own) if controlled else None, samples)
     threads = nthread or os.cpu_count() or 1
-    plan = _Plan(grid, integrator, float(duration), tol, until_rest, max_steps, threads)
+    plan = _Plan(grid, integrator, float(duration), tol, until_rest, max_steps, threads, progress)
     outcomes = _run(mechanism, made, plan) if made else []
     return [_history(mechanism, c, o, plan, controlled) for c, o in zip(made, outcomes, strict=True)]
 
@@ -252,7 +255,9 @@ def _run(mechanism: Mechanism, cases: Sequence[Case], plan: _Plan) -> list[_Outc
 
     def stepped(rows: Sequence[int], grid: Grid) -> list[Track]:
         chosen = [cases[i] for i in rows]
-        return run(mechanism, chosen, grid, plan.integrator, nthread=plan.nthread, rest=plan.rest)
+        return run(
+            mechanism, chosen, grid, plan.integrator, nthread=plan.nthread, rest=plan.rest, progress=plan.progress
+        )
 
     grid, rows = plan.grid, list(range(len(cases)))
     if grid.count > plan.max_steps:

@@ -49,10 +49,12 @@ def follow(
     *,
     stiff: bool = True,
     calm: Callable[[float, Array], bool] | None = None,
+    progress: Callable[[float, float], None] | None = None,
 ) -> Followed:
     """Follow a motion from a state (n,) through increasing times, the first of which is where it begins.
 
-    `calm` tells whether speeds are so small that the motion ends once they have stayed so.
+    `calm` tells whether speeds are so small that the motion ends once they have stayed so; `progress(time, end)` hears
+    of every step.
     """
     method = LSODA if stiff else DOP853
     solver = method(field, float(times[0]), state, float(times[-1]), rtol=rtol, atol=atol)
@@ -69,6 +71,8 @@ def follow(
             if solver.status == "failed" or not (np.abs(solver.y) < LARGEST).all() or stuck:
                 ended = "diverged"
                 break
+            if progress is not None:
+                progress(float(solver.t), float(times[-1]))
             last = int(np.searchsorted(times, solver.t, side="right"))
             if last > done:
                 states += list(np.atleast_2d(solver.dense_output()(times[done:last]).T))

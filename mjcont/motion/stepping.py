@@ -16,6 +16,7 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
+from mjcont.curves.collect import Amount
 from mjcont.errors import ParameterError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.mechanism.parameters import GRAVITY_ANGLE, LOAD_FACTOR
@@ -99,8 +100,12 @@ def run(
     *,
     nthread: int = 1,
     rest: float | None = None,
+    progress: Amount | None = None,
 ) -> list[Track]:
-    """Step every case over the grid and return its track; `rest` is the scaled speed below which a run may end."""
+    """Step every case over the grid and return its track.
+
+    `rest` is the scaled speed below which a run may end; `progress(time, end)` hears how far the runs are.
+    """
     model = mechanism.simulation_model()
     if integrator in INTEGRATORS:
         model.opt.integrator = INTEGRATORS[integrator]
@@ -112,10 +117,10 @@ def run(
     with quiet:
         if fast:
             batched = _Batched(mechanism, model, [cases[i] for i in fast], [tracks[i] for i in fast], grid, nthread)
-            _until_interrupted(partial(batched.run, rest), batched.tracks)
+            _until_interrupted(partial(batched.run, rest, progress), batched.tracks)
         for i in slow:
             case, track = cases[i], tracks[i]
-            _until_interrupted(partial(_step_singly, mechanism, model, case, track, grid, rest), [track])
+            _until_interrupted(partial(_step_singly, mechanism, model, case, track, grid, rest, progress), [track])
     return tracks
 
 
@@ -225,7 +230,7 @@ class _Batched:
             inputs.append(written[key].inputs.copies())
         return models, {name: np.array([i[name] for i in inputs]) for name in inputs[0]}
 
-    def run(self, rest: float | None) -> None:
+    def run(self, rest: float | None, progress: Amount | None) -> None:
         """Step all cases to the end, dropping those that end early."""
         grid = self.grid
         size = len(self.cases) * (self.width + 2 * self.states.shape[1])
@@ -252,6 +257,8 @@ class _Batched:
                     self.alive.remove(i)
             if not self.alive:
                 return
+            if progress is not None:
+                progress((begin + length) * grid.step, grid.count * grid.step)
 
     def _advance(self, begin: int, control: Array) -> None:
         """Step the runs that are still alive and record them."""
@@ -314,7 +321,8 @@ class _Batched:
 
 
 def _step_singly(
-    mechanism: Mechanism, model: mujoco.MjModel, case: Case, track: Track, grid: Grid, rest: float | None
+    mechanism: Mechanism, model: mujoco.MjModel, case: Case, track: Track, grid: Grid, rest: float | None,
+    progress: Amount | None,
 ) -> None:
     """Step one case, writing the model's fields before each step."""
     own = mujoco.MjModel.__copy__(model)
@@ -340,6 +348,8 @@ def _step_singly(
             return
         if (k + 1) % grid.every == 0:
             track.record(data.qpos, data.qvel)
+            if progress is not None:
+                progress((k + 1) * grid.step, grid.count * grid.step)
             if _at_rest(mechanism, track, grid, rest):
                 track.ended = "at rest"
                 return

@@ -43,7 +43,7 @@ def backbone(
     progress: Progress | None = None,
     **options: Any,
 ) -> CycleBranch:
-    """Follow the resonance of a response by its phase: where an observable lags its input by a quarter of a turn.
+    """Follow the resonance of a response by its phase: where an observable is a quarter of a turn from its input.
 
     There the input makes up for what damping takes, and the motion is nearly that of a nonlinear mode.
 
@@ -85,7 +85,7 @@ def backbone(
     system = System(orbits, values, free, [condition])
     entries = [Entry(sign, x, system.start_y(), None) for sign in check_direction(direction)]
     special = Special(_nothing, _held(condition), frozenset())
-    where = f"a phase lag of a quarter turn at {tuned.name} = {tuned.show(values[tuned.name])}"
+    where = f"a quarter of a turn from the input at {tuned.name} = {tuned.show(values[tuned.name])}"
     return run(BACKBONE, system, entries, read, where, stop, progress, (), special)
 
 
@@ -115,7 +115,7 @@ def _turns(flow: ModelFlow) -> int:
 
 
 def _quarter_turn(flow: ModelFlow, orbit: Orbit, seen: str, name: str, harmonic: int) -> InQuadrature:
-    """Return the condition that an observable lags an input by a quarter of a turn; its size is an orbit's."""
+    """Return the condition that an observable is a quarter of a turn from an input; its size is an orbit's."""
     column, turns = list(flow.model.observables).index(seen), _turns(flow) * harmonic
 
     def read(states: Array, phases: Array, values: Values) -> Array:
@@ -184,7 +184,7 @@ def _driven_coordinate(flow: ModelFlow, response: CycleBranch, name: str) -> str
 
 
 def _resonance(response: CycleBranch, seen: str, harmonic: int, phase: str | None) -> Orbit:
-    """Return an orbit near to where an observable lags its input by a quarter of a turn, of the largest amplitude.
+    """Return an orbit near to where an observable is a quarter of a turn from its input, of the largest amplitude.
 
     Raises
     ------
@@ -195,11 +195,11 @@ def _resonance(response: CycleBranch, seen: str, harmonic: int, phase: str | Non
         o.harmonics(seen, harmonic)[-1] * np.exp(-1j * (o.parameters[phase] if phase else 0.0)) for o in response.orbits
     ])
     found = [
-        i for i in range(len(lag) - 1)
-        if lag[i].real * lag[i + 1].real <= 0.0 and lag[i].imag + lag[i + 1].imag < 0.0
+        i for i in range(len(lag) - 1)  # ahead, where the input works against the observable's own sign
+        if lag[i].real * lag[i + 1].real <= 0.0 and lag[i].imag * lag[i + 1].imag > 0.0
     ]
     if not found:
-        raise StartError(f"{seen} lags the input by a quarter turn nowhere on the response: follow it through its "
+        raise StartError(f"{seen} is a quarter of a turn from the input nowhere on the response: follow it through its "
                          "resonance, or name another observable")
     i = max(found, key=lambda k: float(abs(lag[k])))
     a, b = lag[i].real, lag[i + 1].real

@@ -14,7 +14,7 @@ from mjcont.errors import StartError
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
-from mjcont.numerics.orbits.conserved import ENERGY
+from mjcont.numerics.orbits.conserved import ENERGY, blur
 from mjcont.numerics.orbits.follow import MeshSettings
 from mjcont.numerics.orbits.points import error_at, multipliers_at, orbits_at, path_at
 from mjcont.numerics.points.events import Located
@@ -57,13 +57,16 @@ def make_orbit(point: CurvePoint) -> Orbit:
 def verdict(orbit: Orbit, kind: str = "") -> tuple[str, int]:
     """Return stability and the number of multipliers outside the unit circle, beside those that a kind holds on it.
 
-    Where energy is kept the multipliers of a stable orbit are on the circle.
+    Where energy is kept the multipliers of a stable orbit are on the circle, and those of modes too fast for the mesh
+    tell nothing.
     """
-    sizes = np.abs(orbit.multipliers[orbit.own])
+    sizes = np.abs(orbit.multipliers[orbit.own if orbit.energy is None else orbit.own & orbit.resolved])
     if not np.isfinite(sizes).all():
         return MARGINAL, 0
     off = abs(orbit.multipliers[orbit.trivial] - 1.0) if orbit.trivial >= 0 else 0.0
     noise = max(_ON_CIRCLE, _TRUST * float(off))
+    if orbit.energy is not None:
+        noise = max(noise, blur(sizes))
     if kind in _HELD:
         nearest = np.argsort(np.abs(np.log(np.maximum(sizes, 1e-300))), kind="stable")[_HELD[kind] :]
         return MARGINAL, int(np.count_nonzero(sizes[nearest] > 1.0 + noise))

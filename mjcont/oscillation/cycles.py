@@ -198,7 +198,7 @@ def _cycle(
     whole = flow.resting(state, values)
     if flow.undamped(whole, values):
         raise MjcontError(f"{flow.model.name} has no damping: its orbits form a family, one for each energy, and no "
-                          "motion settles on one; add damping, or force it (continue_response)")
+                          "motion settles on one; follow the family (continue_modes), or force it (continue_response)")
     return cycle_of(flow, whole, values, read.meshes, duration)
 
 

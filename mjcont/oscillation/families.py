@@ -29,8 +29,10 @@ from mjcont.oscillation.conserving import Conserving
 from mjcont.oscillation.starts import harmonic_orbit
 from mjcont.oscillation.walks import Entry, Options, along_parameter
 
-# size of the first orbit beside rest, and of one that tells how energy grows, relative to the state's scales
-_FIRST, _SMALL = 1e-2, 1e-3
+# sizes of the first orbit beside rest, and of one that tells how energy grows, relative to the state's scales
+_SIZES, _SMALL = (1e-2, 1e-3, 1e-4, 1e-5), 1e-3
+# how far the period of a small orbit may be from the linear one, relative
+_NEAR = 0.05
 # squares of rates, of the largest, below which a mode does not swing; real parts that are rounding
 _STILL, _REAL = 1e-12, 1e-6
 # energies that are walked through before a frequency comes within its bounds, times the first
@@ -79,21 +81,36 @@ def _small_orbit(flow: Conserving, mode: LinearMode, size: float, read: Options)
     return orbits, x, row / np.linalg.norm(row)
 
 
+def _first_orbit(
+    flow: Conserving, values: Values, mode: LinearMode, most: float, read: Options
+) -> tuple[Path, float]:
+    """Return a small orbit beside rest, and its energy, `most` at most: where bushes are stiff only very small ones.
+
+    Raises
+    ------
+    StartError
+        If none is found.
+    """
+    stiffness = _stiffness(flow, values, mode)
+    for size in _SIZES:
+        energy = min(most, stiffness * size**2)
+        orbits, x, _ = _small_orbit(flow, mode, math.sqrt(energy / stiffness), read)
+        near = orbit_near(flow, orbits.path(x, {}), {**values, ENERGY: energy}, np.zeros(flow.d), read.meshes)
+        if near is not None and abs(path_at(near).period * mode.omega / (2.0 * math.pi) - 1.0) < _NEAR:
+            return path_at(near), energy
+    raise StartError(f"no small orbit found beside the mode of {mode.omega / (2.0 * math.pi):.6g} Hz")
+
+
 def in_energy(
     flow: Conserving, values: dict[str, float], mode: LinearMode, free: Free, read: Options
 ) -> tuple[System, Entry]:
     """Return the curve in energy, entered at the lower bound."""
-    stiffness = _stiffness(flow, values, mode)
-    first = min(free.low, stiffness * _FIRST**2)
-    orbits, x, _ = _small_orbit(flow, mode, math.sqrt(first / stiffness), read)
-    values = {**values, ENERGY: first}
+    path, first = _first_orbit(flow, values, mode, free.low, read)
     if first < free.low:
-        path = _walked(flow, orbits, x, values, Free(ENERGY, first, free.low), read, None)
-        values = {**values, ENERGY: free.low}
-        orbits = laid(flow, path, np.zeros(flow.d))
-        x = orbits.joined(path)
-    system = System(orbits, values, [free])
-    return system, Entry(1.0, x, system.start_y(), None)
+        path = _walked(flow, path, {**values, ENERGY: first}, Free(ENERGY, first, free.low), read, None)
+    orbits = laid(flow, path, np.zeros(flow.d))
+    system = System(orbits, {**values, ENERGY: free.low}, [free])
+    return system, Entry(1.0, orbits.joined(path), system.start_y(), None)
 
 
 def in_frequency(
@@ -102,12 +119,7 @@ def in_frequency(
     """Return the curve in frequency, entered beside rest, or where it first comes within the bounds."""
     linear = mode.omega / (2.0 * math.pi)
     by_energy = flow.chosen(ENERGY)
-    first = _stiffness(flow, values, mode) * _FIRST**2
-    orbits, x, _ = _small_orbit(by_energy, mode, _FIRST, read)
-    near = orbit_near(by_energy, orbits.path(x, {}), {**values, ENERGY: first}, np.zeros(flow.d), read.meshes)
-    if near is None:
-        raise StartError(f"no small orbit found beside the mode of {linear:.6g} Hz")
-    path = path_at(near)
+    path, first = _first_orbit(by_energy, values, mode, math.inf, read)
     if free.low <= 1.0 / path.period <= free.high:
         sign = math.copysign(1.0, 1.0 / path.period - linear)
     else:
@@ -117,9 +129,8 @@ def in_frequency(
             del system
             return "inside" if free.low <= 1.0 / path_at(point).period <= free.high else None
 
-        orbits = laid(by_energy, path, np.zeros(flow.d))
         energies = Free(ENERGY, first, _SPAN * first)
-        path = _walked(by_energy, orbits, orbits.joined(path), {**values, ENERGY: first}, energies, read, inside)
+        path = _walked(by_energy, path, {**values, ENERGY: first}, energies, read, inside)
         bound = free.low if sign > 0.0 else free.high
         near = orbit_near(flow, path, {**values, FREQUENCY: bound}, np.zeros(flow.d), read.meshes)
         if near is None:
@@ -138,9 +149,7 @@ def _outwards(system: System, x: Array, path: Path, flow: Conserving) -> Array:
     return np.append(row, 0.0) / np.linalg.norm(row)
 
 
-def _walked(
-    flow: Conserving, orbits: Any, x: Array, values: Values, free: Free, read: Options, stop: Any
-) -> Path:
+def _walked(flow: Conserving, path: Path, values: Values, free: Free, read: Options, stop: Any) -> Path:
     """Return the orbit at the end of a walk in energy, or where `stop` says so.
 
     Raises
@@ -148,7 +157,8 @@ def _walked(
     StartError
         If the walk ends before.
     """
-    system = System(orbits, values, [free])
+    orbits = laid(flow, path, np.zeros(flow.d))
+    system, x = System(orbits, values, [free]), orbits.joined(path)
     y = system.start_y()
     settings = Settings(tol=read.settings.tol)  # limits are those of the curve that is asked for
     first = entered(system, x, y, along_parameter(system, x, y, 1.0), settings)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -22,12 +23,13 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.conserved import ENERGY, FREQUENCY
 from mjcont.numerics.orbits.follow import laid
+from mjcont.numerics.orbits.resonances import ORDERS, family_detectors
 from mjcont.numerics.orbits.switch import departures, system_at
 from mjcont.oscillation.conserving import CHOICES, Conserving, without_losses
 from mjcont.oscillation.families import LinearMode, in_energy, in_frequency, linear_modes
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.oscillation.onward import entries_at, flow_at, orbit_at
-from mjcont.oscillation.walks import Entry, Options, Stop, flow_of, read_options, run
+from mjcont.oscillation.walks import Entry, Options, Special, Stop, flow_of, read_options, run
 from mjcont.results.model import Model, check_bounds
 from mjcont.results.orbits import MODES, CycleBranch, Orbit, OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point
@@ -35,6 +37,8 @@ from mjcont.vectorfield import VectorField
 
 # energies within which a curve in frequency is entered, times that of its orbit
 _LEAST, _MOST = 1e-2, 1e2
+# periods of orbits at internal resonances: two are told by a PD, many by nothing that could be seen
+_FEWEST, _MANY = 3, 12
 
 
 @np.errstate(all="ignore")
@@ -47,6 +51,7 @@ def continue_modes(
     mode: int = 1,
     keyframe: str | None = None,
     state: Any = None,
+    resonances: Sequence[int] = ORDERS,
     stop: Stop | None = None,
     progress: Progress | None = None,
     **options: Any,
@@ -69,6 +74,8 @@ def continue_modes(
         Which linear mode, counted from 1 by rising frequency among those that swing.
     keyframe, state : optional
         Near which state the equilibrium is looked for.
+    resonances : sequence of int
+        Numbers of periods of the orbits whose beginnings are located, IR; none of them where it is empty.
     stop, progress, **options
         As for `continue_cycles`; the scheme is "gauss" unless given.
 
@@ -84,13 +91,28 @@ def continue_modes(
     """
     if parameter not in CHOICES:
         raise unknown_name("parameter of modes", str(parameter), CHOICES)
+    special = _special(resonances)
     if isinstance(origin, SpecialOrbit | OrbitPoint | Orbit):
         if any(given is not None for given in (start, keyframe, state)):
             raise MjcontError("an orbit is its own start: give the parameter and bounds alone")
-        return _from_orbit(origin, parameter, bounds, stop, progress, options)
+        return _from_orbit(origin, parameter, bounds, special, stop, progress, options)
     if not isinstance(origin, Model):
         raise MjcontError(f"modes begin at a model, or at an orbit of a curve of modes; got {type(origin).__name__}")
-    return _from_rest(origin, parameter, bounds, start, mode, keyframe, state, stop, progress, options)
+    return _from_rest(origin, parameter, bounds, start, mode, keyframe, state, special, stop, progress, options)
+
+
+def _special(resonances: Sequence[int]) -> Special:
+    """Return what is looked for along a family.
+
+    Raises
+    ------
+    ParameterError
+        If a number of periods is none of three or more.
+    """
+    orders = tuple(resonances)
+    if not all(isinstance(k, int) and not isinstance(k, bool) and _FEWEST <= k <= _MANY for k in orders):
+        raise ParameterError(f"resonances must be whole numbers from {_FEWEST} to {_MANY}, got {resonances!r}")
+    return Special(partial(family_detectors, orders=orders), None, frozenset())
 
 
 def _from_rest(
@@ -101,6 +123,7 @@ def _from_rest(
     mode: int,
     keyframe: str | None,
     state: Any,
+    special: Special,
     stop: Stop | None,
     progress: Progress | None,
     options: Mapping[str, Any],
@@ -115,7 +138,7 @@ def _from_rest(
     number, chosen = _checked_mode(linear_modes(flow, values), mode)
     system, entry = (in_energy if parameter == ENERGY else in_frequency)(flow, values, chosen, free, read)
     where = f"small motions in mode {number}, {chosen.omega / (2.0 * math.pi):.6g} Hz"
-    return run(MODES, system, [entry], read, where, stop, progress, notes)
+    return run(MODES, system, [entry], read, where, stop, progress, notes, special)
 
 
 def _checked_mode(modes: Sequence[LinearMode], mode: Any) -> tuple[int, LinearMode]:
@@ -137,6 +160,8 @@ def _unforced(problem: Model) -> ModelFlow:
     if isinstance(problem, VectorField) and problem.period is not None:
         raise MjcontError(f"{problem.name} is forced: modes are motions without inputs; give the field without them")
     found = flow_of(problem)
+    if found.chart is not None:
+        raise MjcontError(f"{problem.name} has ball or free joints: modes are followed in hinges and slides only")
     if found.activated:
         raise MjcontError(f"{problem.name} has actuators with states of their own (filters, muscles), which keep no "
                           "energy: make them motors")
@@ -150,6 +175,7 @@ def _from_orbit(
     point: SpecialOrbit | OrbitPoint | Orbit,
     parameter: str,
     bounds: tuple[float, float] | None,
+    special: Special,
     stop: Stop | None,
     progress: Progress | None,
     options: Mapping[str, Any],
@@ -176,7 +202,7 @@ def _from_orbit(
     if parameter == FREQUENCY:
         system, entries = _in_terms_of_frequency(system, entries, free)
     _check_inside(system, entries, free)
-    return run(MODES, system, entries, read, origin, stop, progress, periods=_periods(turned))
+    return run(MODES, system, entries, read, origin, stop, progress, (), special, _periods(turned))
 
 
 def _periods(point: SpecialOrbit | Orbit) -> int:
@@ -193,7 +219,8 @@ def _several_periods(
     """Return the curve of orbits of several periods that begins at an internal resonance."""
     orbit, order = orbit_at(point), _periods(point)
     system, x, y = system_at(flow, orbit.path, orbit.shift, dict(orbit.parameters), (free,))
-    found = departures(flow, orbit.path, orbit.shift, system, x, y, order, read.settings)
+    root = order, int(str(point.coefficients["turns"]))
+    found = departures(flow, orbit.path, orbit.shift, system, x, y, root, read.settings)
     if not found:
         raise StartError(f"{point.label}: no orbits of {order} periods were found beside it")
     entries = [Entry(sign, d.x, d.y, d.row) for sign, d in zip((-1.0, 1.0), found, strict=False)]

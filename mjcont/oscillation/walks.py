@@ -143,7 +143,7 @@ class Special:
     """What a curve of special orbits has beside a curve of orbits; the attributes are those of `Follower`."""
 
     detectors: Callable[[System, Settings], list[Detector]]
-    held: Callable[[System, Array, Array], System]
+    held: Callable[[System, Array, Array], System] | None
     end_at: frozenset[str]
 
 

@@ -20,6 +20,7 @@ STUDIES: Mapping[str, str] = {
     "locking_gusts": "unlocking the gear that locks in gusts, and what a stop is good for",
     "load_map": "the gear's retraction and unlock force over gravity angle and load factor, and their worst cases",
     "shimmy": "a nose wheel that shimmies: where it begins, its cycles and their folds over speed and load",
+    "shaken_pins": "elastic joints that oscillate, against rigid ones, and amplitudes that unlock the gear that locks",
     "tolerances": "how the gear's forces scatter within tolerances, against the linear estimate",
 }
 

@@ -33,6 +33,7 @@ from mjcont.results.branchfiles import read_branch, write_branch
 from mjcont.results.files import FORMAT_VERSION, save_hdf5, write_model
 from mjcont.results.model import Model
 from mjcont.results.points import Point, show
+from mjcont.results.quantities import check_name
 from mjcont.results.text import Cells, Shown, Tabular
 
 KIND = "load path"
@@ -216,6 +217,7 @@ class LoadPath(Tabular, Shown):
 
     def __getitem__(self, name: str) -> Array:
         """Return a column along the whole path, SI and radians; a jump lies between two rows."""
+        check_name(name)
         return np.concatenate([s[name] for s in self.segments])
 
     def _ipython_key_completions_(self) -> list[str]:

@@ -240,7 +240,7 @@ def check_values(given: object) -> None:
 def check_name(name: object) -> None:
     """Raise a NameLookupError unless a name is a string."""
     if not isinstance(name, str):
-        raise NameLookupError(f'a name is a string such as "F", got a {type(name).__name__}')
+        raise NameLookupError(f'a name is a string such as "F", got the {type(name).__name__} {str(name):.40}')
 
 
 def meant(name: str, varying: Container[str], observables: Container[str]) -> str:

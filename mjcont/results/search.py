@@ -9,6 +9,7 @@ from typing import Any, overload
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.spectra.spectrum import Spectrum
@@ -101,6 +102,7 @@ class Equilibria(Tabular, Shown, Sequence[Equilibrium]):
     def __getitem__(self, index: int) -> Equilibrium: ...
     @overload
     def __getitem__(self, index: slice) -> tuple[Equilibrium, ...]: ...
+    @checked
     def __getitem__(self, index: int | slice) -> Equilibrium | tuple[Equilibrium, ...]:
         """Return an equilibrium, or several."""
         return self.points[index]

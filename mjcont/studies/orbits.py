@@ -19,7 +19,8 @@ from mjcont.studies import values as v
 from mjcont.studies.keys import Context, Key, Kind, takes
 from mjcont.studies.schema import Table
 
-ORBITS = ("cycles", "response")
+FAMILY = "nonlinear mode"
+ORBITS = ("cycles", "response", FAMILY)
 # what columns say of an observable, and of a response besides
 _NUMBERS, _FIRST = ("max", "min", "amplitude", "mean", "rms"), ("h1", "phase")
 _MESH: Mapping[str, f.Form] = {
@@ -67,8 +68,8 @@ def _forcing(table: Table, key: str, context: Context) -> dict[str, Harmonic]:
 
 def _unit(name: Any, context: Context) -> str:
     """Return the unit of a parameter of a forced model; empty, which any unit fits, for what there is not."""
-    if name == FREQUENCY:
-        return "Hz"
+    if name in (FREQUENCY, "energy"):
+        return "Hz" if name == FREQUENCY else "J"
     stem, _, what = str(name).rpartition(".")
     if what == "phase":
         return "rad"
@@ -148,7 +149,13 @@ def _check_response(found: dict[str, Any], table: Table, context: Context) -> No
         raise table.error("forcing", error) from error
 
 
-_POSED = {
+def orbit_settings() -> Key:
+    """Return the key for settings of curves of orbits."""
+    return Key(_settings, "`mesh`, `degree`, `scheme`, `tol`, `mesh_max`, `period_max`, and fields of "
+                          "`mjcont.Settings` but its `tol`.", {}, otherwise="their defaults")
+
+
+POSED = {
     "start": Key(v.values, "Parameter values at the start, over those of `[parameters]`.", {}, otherwise="none"),
     "keyframe": Key(v.keyframe, "The keyframe near which the motion begins.", otherwise="the initial pose"),
     "state": Key(v.state, "The same, as an array of all position coordinates.", otherwise="the initial pose"),
@@ -157,23 +164,22 @@ _ENDING = {
     "direction": Key(v.direction, "`1` or `-1`: only that way, in which the parameter first grows or falls.",
                      otherwise="both"),
     "csv": Key(v.flag, "Whether to write NAME.csv: a row an orbit, angles in degrees.", False),
-    "settings": Key(_settings, "`mesh`, `degree`, `scheme`, `tol`, `mesh_max`, `period_max`, and fields of "
-                               "`mjcont.Settings` but its `tol`.", {}, otherwise="their defaults"),
+    "settings": orbit_settings(),
 }
-_RESULT = Key(v.result_name, "Names its files, and the result elsewhere in the study.", needed=True)
+RESULT = Key(v.result_name, "Names its files, and the result elsewhere in the study.", needed=True)
 
 CYCLES = Kind("cycles", "A curve of limit cycles (`continue_cycles`).", {
-    "name": _RESULT,
-    "point": Key(r.reference("branch", *ORBITS),
+    "name": RESULT,
+    "point": Key(r.reference("branch", "cycles", "response"),
                  "Where it begins: a Hopf point, such as `\"equilibria:HB1\"`; a PD, a BPC or another orbit of cycles.",
                  otherwise="the cycle on which the motion from the start settles"),
     "parameter": Key(v.parameter, "The parameter that varies.", otherwise="that of the point's curve"),
     "bounds": Key(_bounds, "`[low, high]`.", otherwise="those of the point's curve, or the parameter's own"),
-    **_POSED, **_ENDING,
+    **POSED, **_ENDING,
 }, _check_cycles)
 
 RESPONSES = Kind("responses", "Periodic motion under periodic inputs (`continue_response`).", {
-    "name": _RESULT,
+    "name": RESULT,
     "parameter": Key(_name, "What varies: `\"frequency\"`, `\"F.amplitude\"`, `\"F.phase\"` or a parameter of the "
                             "model; that of an input is its mean.", otherwise="that of the point's curve"),
     "bounds": Key(_bounds, "`[low, high]`; of the frequency in Hz.",
@@ -183,7 +189,7 @@ RESPONSES = Kind("responses", "Periodic motion under periodic inputs (`continue_
     "frequency": Key(_frequency, "Of the forcing, in Hz.", otherwise="where its bounds begin, if it varies"),
     "point": Key(r.reference("response"), "A PD, a BPC or another orbit of an earlier response at which it begins.",
                  otherwise="the motion settled from its start"),
-    **_POSED, **_ENDING,
+    **POSED, **_ENDING,
 }, _check_response)
 
 
@@ -195,7 +201,7 @@ def own_columns(context: Context) -> dict[str, str]:
     kinds = {known.kind for known in context.known.values()} & set(ORBITS)
     if not kinds or context.mechanism is None:
         return {}
-    found = {"period": "s", FREQUENCY: "Hz"}
+    found = {"period": "s", FREQUENCY: "Hz"} | ({"energy": "J"} if FAMILY in kinds else {})
     for o in context.mechanism.observables.values():
         found |= {f"{o.name}.{what}": o.unit for what in _NUMBERS}
         if "response" in kinds:

@@ -58,8 +58,8 @@ def _check_plot(found: dict[str, Any], table: Table, context: Context) -> None:
 
 PLOT = Kind("plot", "A diagram, drawn as soon as its curves are done.", {
     "file": Key(_plot_file, "File name ending in `.png`, `.pdf` or `.svg`, without a folder.", needed=True),
-    "x": Key(plotted, "Column: a parameter or an observable; of orbits also `period`, `frequency`, `NAME.max`, `.min`, "
-                      "`.amplitude`, `.mean`, `.rms`, of responses `.h1`, `.phase`.", needed=True),
+    "x": Key(plotted, "Column: a parameter or an observable; of orbits also `period`, `frequency`, `energy`, "
+                      "`NAME.max`, `.min`, `.amplitude`, `.mean`, `.rms`, of responses `.h1`, `.phase`.", needed=True),
     "y": Key(plotted, "The same. An observable of orbits is drawn by its largest and smallest value.", needed=True),
     "branches": Key(r.curves(*CURVES), "Names of branches, diagrams, cycles, responses, loci and paths.",
                     otherwise="all but loci and paths; if there are none, these"),

@@ -17,9 +17,9 @@ _LABEL = re.compile(r"([A-Z]+)([1-9]\d*)")
 # labels of points: by kind of result those that it can have, and the names that it has for sure
 _ROWS = ("start", "first", "last")
 PLACES = {"search": (), "branch": _ROWS, "locus": (), "diagram": (), "path": ("final",), "cycles": _ROWS,
-          "response": _ROWS}
+          "response": _ROWS, "nonlinear mode": _ROWS}
 # the curves, as kinds of special points know them, that are not called like their kind of result
-_CURVES = {"diagram": "branch", "response": "cycles"}
+_CURVES = {"diagram": "branch", "response": "cycles", "nonlinear mode": "cycles"}
 
 
 def known_result(table: Table, key: str, name: str, kinds: Sequence[str], context: Context) -> Known:

@@ -74,7 +74,8 @@ def task_line(mechanism: Any, plan: Task) -> str:
     g, unit_of = plan.given, units(mechanism)
 
     def span(name: str, ends: tuple[float, float]) -> str:
-        unit = unit_of.get(name, "Hz" if name == "frequency" else unit_of.get(name.removesuffix(".amplitude"), ""))
+        own = {"frequency": "Hz", "energy": "J"}
+        unit = unit_of.get(name, own.get(name, unit_of.get(name.removesuffix(".amplitude"), "")))
         return f"{name} from {show(ends[0], unit, 6)} to {show(ends[1], unit, 6)}"
 
     def orbits() -> str:
@@ -88,6 +89,7 @@ def task_line(mechanism: Any, plan: Task) -> str:
         "diagram": lambda: span(g["parameter"], g["bounds"]),
         "cycles": orbits,
         "response": orbits,
+        "nonlinear mode": orbits,
         "locus": lambda: f"{of}, {span(g['parameter'], g['bounds'])}",
         "path": lambda: g["parameter"] + " " + " -> ".join(show(v, unit_of[g["parameter"]], 6) for v in g["values"])
         if g["parameter"] else f"{len(g['loads'])} loads",
@@ -176,6 +178,19 @@ def _response(plan: Task, at: Running) -> Outcome:
     return found, store_curve(found, plan.name, g["csv"], at.folder)
 
 
+def _nonlinear(plan: Task, at: Running) -> Outcome:
+    from mjcont.oscillation.nonlinear import continue_modes
+
+    g = plan.given
+    common = {"resonances": g["resonances"], "progress": at.reporter.point, **g["settings"]}
+    if g["point"] is not None:
+        found = continue_modes(point_of(at.done, g["point"]), g["parameter"], g["bounds"], **common)
+    else:
+        rest = {key: g[key] for key in ("mode", "start", "keyframe", "state")}
+        found = continue_modes(at.mechanism, g["parameter"], g["bounds"], **rest, **common)
+    return found, store_curve(found, plan.name, g["csv"], at.folder)
+
+
 def _path(plan: Task, at: Running) -> Outcome:
     from mjcont.motion.loadpaths import load_path
 
@@ -195,7 +210,7 @@ def _history(plan: Task, at: Running) -> Outcome:
     if isinstance(begin["start"], OrbitPoint | SpecialOrbit):
         begin = {"problem": begin["start"]}
     found = simulate(
-        **begin, inputs=g["inputs"], duration=g["duration"],
+        **begin, inputs=g["inputs"], duration=g["duration"], progress=at.reporter.step,
         **{key: g[key] for key in ("timestep", "integrator", "tol", "until_rest", "samples")},
     )
     files = store_curve(found, plan.name, g["csv"], at.folder)
@@ -243,7 +258,8 @@ def _certificate(plan: Task, at: Running) -> Outcome:
 
     g = plan.given
     found = verify_stability(
-        curve_of(at.done, g["branch"]), g["n"], **{key: g[key] for key in ("amplitude", "tolerance", "max_steps")}
+        curve_of(at.done, g["branch"]), g["n"], progress=at.reporter.step,
+        **{key: g[key] for key in ("amplitude", "tolerance", "max_steps")},
     )
     certificate = found.certificate
     files = [found.save(at.folder / f"{plan.name}.h5")]
@@ -284,6 +300,7 @@ _RUNS: Mapping[str, Callable[[Task, Running], Outcome]] = {
     "search": _search, "diagram": _diagram, "cycles": _cycles, "response": _response, "locus": _locus, "path": _path,
     "history": _history, "sensitivity": _sensitivity, "worst case": _worst, "map": _map, "certificate": _certificate,
     "barrier": _barrier, "modes": _modes, "transfer": _transfer,
+    "nonlinear mode": _nonlinear,
 }
 
 

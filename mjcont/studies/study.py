@@ -120,7 +120,8 @@ def _ranges(study: Study, plan: BranchPlan | Task) -> dict[str, Range]:
         name, bounds = plan.given.get("parameter"), plan.given.get("bounds")
     if not name or not bounds or (isinstance(plan, Task) and plan.kind == "diagram"):  # of how many branches?
         return {}
-    return {name: Range(*bounds, units(study.mechanism).get(name, "Hz" if name == "frequency" else ""))}
+    own = {"frequency": "Hz", "energy": "J"}
+    return {name: Range(*bounds, units(study.mechanism).get(name, own.get(name, "")))}
 
 
 def _task(study: Study, plan: BranchPlan) -> str:

@@ -18,9 +18,10 @@ from mjcont.studies import forms as f
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
 from mjcont.studies import values as v
+from mjcont.studies.families import NONLINEAR
 from mjcont.studies.keys import Context, Key, Kind, takes
 from mjcont.studies.linear import MODES, TRANSFER
-from mjcont.studies.orbits import CYCLES, ORBITS, RESPONSES
+from mjcont.studies.orbits import CYCLES, FAMILY, ORBITS, RESPONSES
 from mjcont.studies.schema import Table
 from mjcont.studies.waveforms import INPUTS, read_input
 
@@ -338,7 +339,7 @@ BARRIER = Kind("barriers", "The energy that dislodges a rest, along a branch (`b
 KINDS = {
     "search": SEARCH, "branch": BRANCH, "diagram": DIAGRAM, "cycles": CYCLES, "response": RESPONSES, "locus": LOCUS,
     "path": PATH, "history": HISTORY, "sensitivity": SENSITIVITY, "worst case": WORST, "map": MAP,
-    "certificate": CERTIFICATE, "barrier": BARRIER, "modes": MODES, "transfer": TRANSFER,
+    "certificate": CERTIFICATE, "barrier": BARRIER, "modes": MODES, "transfer": TRANSFER, FAMILY: NONLINEAR,
 }
 
 

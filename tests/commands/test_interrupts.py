@@ -9,7 +9,7 @@ from problems.commands import SLOW, STUDY, child, terminal
 
 import mjcont as mc
 from mjcont.commands.cli import main
-from mjcont.commands.progress import Told
+from mjcont.commands.told import Told
 
 
 def test_an_interrupt_while_a_branch_runs_stores_its_points(

@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 import pytest
 
-from mjcont.commands.progress import Gauge, Told, spoken, time_left
+from mjcont.commands.progress import Gauge, spoken, time_left
+from mjcont.commands.told import Told
 from mjcont.curves.collect import Found
 from mjcont.outside.terminal import Live
 from mjcont.studies.reporter import Range
@@ -63,6 +64,28 @@ def test_the_line_says_what_how_far_and_how_long_still() -> None:
     clock.now = 30.0
     gauge.count(20, 40, " cases", ", 1 failed")
     assert gauge.line() == "sweep: 20 of 40 cases, 1 failed, 30 s, about 60 s left"
+
+
+def test_what_is_first_told_late_was_done_since_the_beginning() -> None:
+    clock = Clock()
+    gauge = Gauge(clock=clock)
+    gauge.begin("map")
+    clock.now = 10.0
+    gauge.count(1, 4)
+    assert gauge.line() == "map: 1 of 4, 10 s, about 30 s left"
+
+
+def test_a_share_that_falls_is_one_of_other_work() -> None:
+    clock = Clock()
+    gauge = Gauge(clock=clock)
+    gauge.begin("motion")
+    gauge.tell("", 0.0)
+    clock.now = 10.0
+    gauge.tell("", 1.0)
+    gauge.tell("", 0.0)
+    clock.now = 15.0
+    gauge.tell("", 0.25)
+    assert gauge.line() == "motion: 15 s, about 15 s left"
 
 
 def test_what_is_over_at_once_says_nothing() -> None:

@@ -95,6 +95,19 @@ def test_a_label_of_ones_own_has_the_numbers_that_were_drawn():
     assert 4e5 in numbers(ax.get_xticklabels())
 
 
+def test_a_label_goes_with_its_numbers_when_the_scale_is_changed_afterwards():
+    ax = drawn([1e2, 1e8], [0.0, 1.0], ("k_j", "N/m"), ("y", ""))
+    assert ax.get_xlabel().endswith("[MN/m]")
+    ax.set_xscale("log")
+    ax.figure.draw_without_rendering()
+    assert ax.get_xlabel().endswith("[N/m]")
+    label_axes(ax, ("k_j", "N/m"), ("y", ""))
+    ax.set_xscale("linear")
+    label_axes(ax, ("k_j", "N/m"), ("y", ""))
+    ax.figure.draw_without_rendering()
+    assert ax.get_xlabel().endswith("[MN/m]")
+
+
 def test_panels_that_share_an_axis_agree_on_its_unit():
     figure, (top, bottom) = new_figure(2, 1, sharex=True)
     top.plot([0.0, 5e4], [0.0, 1.0])
@@ -198,3 +211,16 @@ def test_dashes_of_curves_that_coincide_stay_dashes():
     row = image[image.shape[0] - round(ax.transData.transform((0.5, 0.0))[1]), :, :3].astype(int)
     assert (row.sum(axis=1) > 750).sum() > 0.2 * ax.bbox.width
     assert (row[:, 0] - row[:, 2] > 100).sum() < 0.05 * ax.bbox.width
+
+
+@pytest.mark.long
+def test_the_curve_of_the_four_bar_linkage_looks_smooth():
+    (branch,) = [p for p in mc.load_study("four_bar").plans if p.name == "equilibria"]
+    curve = mc.continue_equilibria(mc.Mechanism.from_xml("four_bar"), "M", branch.bounds, **branch.settings)
+    ax = curve.plot(y="crank")
+    ax.figure.draw_without_rendering()
+    for line in (line for line in ax.lines if line.get_label() == "_curve"):
+        steps = np.diff(ax.transData.transform(line.get_xydata()), axis=0)
+        turns = np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))
+        assert np.degrees(np.abs(turns).max()) < 12.0
+        assert np.hypot(*steps.T).max() < 0.02 * ax.bbox.width

@@ -45,6 +45,12 @@ def test_curves_of_different_kinds_are_named_by_them():
     assert [t.get_text() for t in ax.get_legend().get_texts()] == ["equilibria", "cycles"]
 
 
+def test_an_orbit_draws_itself_whatever_it_is_called_through():
+    ax = mc.plot(flutter()[-1].orbit)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("q1 [deg]", "rate of q1 [deg/s]")
+    assert mc.plot(flutter()[-1].orbit, x="q2").get_xlabel() == "q2 [deg]"
+
+
 def test_a_frequency_response_is_one_line_with_units():
     ax = mc.plot(resonance(), x="w", y="x.amplitude")
     (line,) = lines(ax)

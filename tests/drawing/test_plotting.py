@@ -99,6 +99,16 @@ def test_markers_of_all_kinds_differ_in_shape():
     assert len(set(shapes)) == len(shapes)
 
 
+@pytest.mark.parametrize("kind", sorted(plotting.MARKERS))
+def test_the_marker_of_every_kind_is_seen(kind):
+    ax = new_figure(size=(1.0, 1.0))[1]
+    ax.axis("off")
+    plotting.mark(ax, 0.5, 0.5, kind)
+    ax.figure.canvas.draw()
+    image = np.asarray(ax.figure.canvas.buffer_rgba())[..., :3]
+    assert np.count_nonzero(image.max(axis=-1) < 140) >= 5
+
+
 def test_several_branches_are_told_apart_by_colour_and_by_the_parameter_that_differs(cusp):
     other = mc.continue_equilibria(cusp.problem, "mu", bounds=(-1, 1), start={"lam": 0.5}, state=[-1.2])
     ax = plot(cusp, other, x="mu", y="x")

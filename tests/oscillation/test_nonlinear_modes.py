@@ -99,7 +99,7 @@ def test_a_curve_in_frequency_begins_where_its_mode_comes_within_the_bounds():
 def test_modes_are_saved_and_go_on_from_any_orbit(in_phase, tmp_path):
     field = cubic_pair()
     loaded = mc.load(in_phase.save(tmp_path / "modes.h5"), problem=field)
-    assert loaded.kind == "modes" and loaded["energy"] == pytest.approx(in_phase["energy"], rel=1e-15)
+    assert loaded.kind == "nonlinear modes" and loaded["energy"] == pytest.approx(in_phase["energy"], rel=1e-15)
     row = loaded[len(loaded) // 2]
     assert row.orbit.energy == row["energy"]
     onward = mc.continue_modes(row, "energy", (0.5 * row["energy"], 2.0 * row["energy"]), max_points=5)
@@ -144,3 +144,23 @@ def test_an_equilibrium_about_which_nothing_swings_has_no_modes():
     falling = mc.VectorField(lambda u, p: [u[1], u[0]], [0.0, 0.0], {"k": 1.0})
     with pytest.raises(mc.ParameterError, match="there is none"):
         mc.continue_modes(falling, "energy", (0.1, 1.0))
+
+
+# -- stiff bushes ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("stiffness", [1e3, 1e6])
+def test_a_mode_on_elastic_pins_begins_as_the_linear_one_and_is_stable(stiffness):
+    overcentre = mc.Mechanism.from_xml("overcentre")
+    start = {"F": 30.0, "k_j": stiffness}
+    linear = mc.modes(mc.find_equilibrium(overcentre, {**start, "c_sp": 0.0}))[0]
+    curve = mc.continue_modes(overcentre, "energy", (1e-4, 4e-4), start=start, resonances=())
+    assert curve["frequency"][0] == pytest.approx(linear.frequency, rel=1e-4)
+    assert set(curve.stability) == {"stable"} and not curve.special_points
+    assert "left out: the damping of tendon spring" in curve.notes
+
+
+def test_mechanisms_with_ball_joints_are_refused(tmp_path):
+    text = PENDULUM.replace('name="theta" type="hinge" axis="0 1 0"', 'name="theta" type="ball"')
+    with pytest.raises(mc.MjcontError, match="ball or free joints"):
+        mc.continue_modes(loaded(text, tmp_path), "energy", (0.1, 1.0))

@@ -12,12 +12,12 @@ import mjcont as mc
 GEAR = {"F_ret": 4e5, "k_j": 1e5}
 # what moves, about which mean, and over which frequencies in Hz; how many responses of each are compared
 SHAKEN = {
-    "overcentre, soft pins": ("overcentre", {"F": 5.0}, {"F": 30.0, "k_j": 1e3}, None, (0.2, 1.0), 24),
+    "overcentre, soft pins": ("overcentre", {"F": 5.0}, {"F": 30.0, "k_j": 1e3}, None, (0.2, 1.0), 20),
     "overcentre, large": ("overcentre", {"F": 12.0}, {"F": 36.0, "k_j": 1e3}, None, (0.1, 0.6), 24),
-    "overcentre, stiff pins": ("overcentre", {"F": 5.0}, {"F": 30.0, "k_j": 1e6, "c_j": 100.0}, None, (0.8, 1.4), 4),
+    "overcentre, stiff pins": ("overcentre", {"F": 5.0}, {"F": 30.0, "k_j": 1e6, "c_j": 100.0}, None, (1.0, 1.4), 4),
     "nose gear, unlock force": ("nose_gear", {"F_ul": 100.0}, GEAR, "uplock_below", (1.0, 3.0), 16),
     "nose gear, gusts": ("nose_gear", {"load_factor": 0.2}, GEAR, "uplock_below", (2.0, 4.0), 8),
-    "truss": ("von_mises_truss", {"P": 20.0}, {"P": 50.0}, "unloaded", (0.5, 3.0), 24),
+    "truss": ("von_mises_truss", {"P": 20.0}, {"P": 50.0}, "unloaded", (0.5, 3.0), 28),
 }
 
 

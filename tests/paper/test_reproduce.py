@@ -72,7 +72,13 @@ def test_a_figure_that_fails_or_crashes_harms_no_other(scripts, tmp_path):
     (scripts / "fig02.py").write_text(BAD)
     (scripts / "fig04.py").write_text(DEAD)
     lines: list[str] = []
-    result = reproduce(None, tmp_path / "out", jobs=2, say=lines.append)
+    heard: list[tuple[list[str], int, int]] = []
+    result = reproduce(
+        None, tmp_path / "out", jobs=2, say=lines.append, progress=lambda *step: heard.append((*step,))
+    )
+    assert heard[0] == (["figure 2", "figure 1"], 0, 3)
+    assert [done for _, done, _ in heard] == [0, 1, 2]
+    assert len(heard[-1][0]) == 1
     assert result.failed == [2, 4]
     headline = "1 of 2 findings hold in 1 figures; 2 failed, with findings unknown: figure 2, figure 4"
     assert lines[-2:] == [headline, f"report: {result.report}"]

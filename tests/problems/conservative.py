@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
 import mjcont as mc
@@ -94,3 +95,32 @@ def period_of_pendulum(energy):
     """Return 4 K(m) / omega with m = E / (2 m g l)."""
     load, inertia = 2.0 * 9.81 * 0.5, 2.0 * 0.25 + 0.01
     return 4.0 * ellipk(0.5 * energy / load) / math.sqrt(load / inertia)
+
+
+SPRING, LENGTH = 4.4, 1.0
+
+
+def elastic_pendulum():
+    """Return a unit mass that hangs from a spring of length one at rest, in unit gravity: x across, z along it."""
+    free = LENGTH - 1.0 / SPRING
+
+    def rates(u, p):
+        x, z, v, w = u
+        r = math.hypot(x, LENGTH + z)
+        pull = SPRING * (r - free) / r
+        return [v, w, -pull * x, 1.0 - pull * (LENGTH + z)]
+
+    return mc.VectorField(rates, np.zeros(4), {"k": SPRING}, names=["x", "z", "v", "w"])
+
+
+def swing_of_a_bounce(amplitude):
+    """Return the trace of the swing's multipliers while the mass bounces, z = a cos(sqrt(k) t): Hill's equation."""
+    rate, free = math.sqrt(SPRING), LENGTH - 1.0 / SPRING
+
+    def hill(t, y):
+        r = LENGTH + amplitude * math.cos(rate * t)
+        pull = SPRING * (r - free) / r
+        return [y[1], -pull * y[0], y[3], -pull * y[2]]
+
+    run = solve_ivp(hill, (0.0, TWO_PI / rate), [1.0, 0.0, 0.0, 1.0], method="DOP853", rtol=1e-13, atol=1e-14)
+    return run.y[0, -1] + run.y[3, -1]

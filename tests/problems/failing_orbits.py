@@ -220,6 +220,7 @@ BARE = np.full((3, 2, 2), math.nan)
 CASES = {
     "conserved.orbits_on": lambda b: b.keeping,
     "conserved.ConservedOrbits": lambda b: b.keeping.residual(b.keeping.joined(b.path), b.keeping.flow.values()),
+    "conserved.blur": lambda b: conserved.blur(np.full(4, ENTRIES.get(b.kind, 0.0))),
     "conserved.own_multipliers": BadMotion.kept_multipliers,
     "collocation.Orbits": lambda b: b.orbits.residual(b.x, b.values),
     "collocation.OrbitLinearization": lambda b: b.local.jac,
@@ -276,8 +277,12 @@ CASES = {
     "resonances.energy_slope": lambda b: resonances.energy_slope(b.kept),
     "resonances.EnergyTurns": lambda b: b.look_at_kept(resonances.EnergyTurns),
     "resonances.InternalResonance": lambda b: b.look_at_kept(resonances.InternalResonance),
+    "resonances.family_detectors": lambda b: [
+        d.value(b.kept) for d in resonances.family_detectors(b.kept_system, b.settings)
+    ],
+    "resonances.Leaving": lambda b: b.look_at_kept(resonances.Leaving),
     "switch.departures": lambda b: switch.departures(
-        b.flow, b.path, b.shift, b.system, b.x, b.y, 3, b.settings
+        b.flow, b.path, b.shift, b.system, b.x, b.y, (3, 1), b.settings
     ),
     "switch.doubled": lambda b: switch.doubled(b.flow, b.path, b.shift, b.system, b.x, b.y),
     "switch.crossing": lambda b: switch.crossing(b.system, b.x, b.y, b.point().tangent),

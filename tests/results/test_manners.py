@@ -147,6 +147,18 @@ def test_arrays_have_dimensions_and_units(results: dict[str, Any]) -> None:
     assert results["transfer"].to_xarray()["z"].dims == ("frequency",)
 
 
+def test_barriers_over_two_parameters_are_an_array_and_a_table(tmp_path: Any) -> None:
+    pytest.importorskip("xarray")
+    energy = np.array([[1.0, 2.0, np.inf], [3.0, np.nan, 4.0]])
+    found = mc.BarrierMap(("turn", "P"), ("rad", "N"), np.radians([0.0, 10.0, 20.0]), np.array([5.0, 6.0]), energy)
+    array = found.to_xarray()["energy"]
+    assert array.dims == ("P", "turn")
+    np.testing.assert_array_equal(array.sel(P=6.0), energy[1])
+    lines = found.to_csv(tmp_path / "map.csv").read_text().splitlines()
+    assert lines[0] == "turn [deg],P [N],energy [J]"
+    assert lines[3] == "20.0,5.0,inf"
+
+
 def test_an_array_without_xarray_says_how_to_get_it(results: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(__import__("sys").modules, "xarray", None)
     with pytest.raises(mc.MjcontError, match=r"pip install 'mjcont\[notebook\]'"):

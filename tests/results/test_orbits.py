@@ -96,7 +96,7 @@ def test_rows_are_points_with_their_orbit_and_numbers():
     assert row.orbit is cycles.orbits[-1]
     assert row["q1.max"] == cycles["q1.max"][-1]
     assert row["period"] == row.orbit.period
-    with pytest.raises(IndexError, match=f"rows 0 to {len(cycles) - 1}"):
+    with pytest.raises(mc.NameLookupError, match=f"rows are 0 to {len(cycles) - 1}"):
         _ = cycles[len(cycles)]
 
 

@@ -10,7 +10,7 @@ import pytest
 
 import mjcont as mc
 from mjcont.commands.cli import main
-from mjcont.commands.progress import Told
+from mjcont.commands.told import Told
 from mjcont.studies.reporter import Reporter
 from mjcont.studies.study import load_study, run_study
 from mjcont.studies.waveforms import Shape

@@ -30,6 +30,8 @@ from mjcont.numerics.orbits.flow import Flow
 from mjcont.numerics.orbits.path import Path
 
 ENERGY, FREQUENCY = "energy", "frequency"
+# how far from the unit circle a multiplier is off it, and how many times what the product of all is from 1
+_CERTAIN, _TIMES = 1e-6, 10.0
 
 
 class ConservativeFlow(Flow):
@@ -171,13 +173,20 @@ def own_multipliers(
     values = np.where(np.isfinite(values), values, complex(np.inf))
     first, second = _trivial(left, right, along, across)
     fast, resolved = fast_modes(orbits, blocks, period), np.ones(len(values), dtype=bool)
-    if fast is not None and fast.count < len(values):
-        resolved[:] = False
-        resolved[fast.least(scale[:, None] * (own @ vectors), len(values) - fast.count)] = True
+    if fast is not None:
+        slow = fast.least(scale[:, None] * (own @ vectors), max(len(values) - fast.count, 0))
+        values = np.concatenate([values[slow], fast.adiabatic[: len(values) - len(slow)]])
+        resolved = np.arange(len(values)) < len(slow)
     order = np.argsort(-np.abs(values), kind="stable")
     values, resolved = values[order], resolved[order]
     at = int(np.count_nonzero(np.abs(values) > 1.0))
     return Multipliers(np.insert(values, [at, at], [first, second]), np.insert(resolved, [at, at], True), at, 2)
+
+
+def blur(multipliers: Array) -> float:
+    """Return how far from the unit circle errors may have taken the multipliers of an orbit that keeps an energy."""
+    sizes = np.log(np.maximum(np.abs(multipliers), 1e-300))
+    return float(max(_CERTAIN, _TIMES * abs(sizes.sum()))) if len(sizes) else _CERTAIN
 
 
 def _trivial(left: Array, right: Array, along: Array, across: Array) -> tuple[complex, complex]:

@@ -22,12 +22,12 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
-from mjcont.numerics.orbits.conserved import ENERGY, ConservedOrbits
+from mjcont.numerics.orbits.conserved import ConservedOrbits
 from mjcont.numerics.orbits.defining import PeriodDoubling, Torus
 from mjcont.numerics.orbits.detectors import BranchOfCycles, FoldOfCycles, located
 from mjcont.numerics.orbits.forms import cubic_of_doubling, cubic_of_torus, side_of
 from mjcont.numerics.orbits.points import multipliers_at
-from mjcont.numerics.orbits.resonances import EnergyTurns, InternalResonance
+from mjcont.numerics.orbits.resonances import family_detectors
 from mjcont.numerics.points.events import (
     Detector,
     Found,
@@ -324,10 +324,6 @@ def _resonance(theta: float) -> str:
 
 def cycle_detectors(system: System, settings: Settings) -> list[Detector]:
     """Return the detectors of a curve of orbits, the one that guards against other branches first."""
-    branches, crossing = BranchOfCycles(system, settings), Crossing(system, settings)
-    folds: Detector = FoldOfCycles(system, settings)
-    if not isinstance(system.problem, ConservedOrbits):
-        return [branches, folds, crossing]
-    if system.free[0].name != ENERGY:
-        folds = EnergyTurns(system, settings)
-    return [branches, folds, crossing, InternalResonance(system, settings)]
+    if isinstance(system.problem, ConservedOrbits):
+        return family_detectors(system, settings)
+    return [BranchOfCycles(system, settings), FoldOfCycles(system, settings), Crossing(system, settings)]

@@ -6,10 +6,10 @@ null vector w, q(t, t) = 0 on the curve's own tangent t, and for a vector n acro
 
     q(a t + b n) = 2 a b q(t, n) + b^2 q(n, n) = 0,   so that the other branch leaves along 2 q(t, n) n - q(n, n) t.
 
-At an IR with a multiplier exp(2 pi i / k) of a family that keeps an energy, and v(t + T) = exp(2 pi i / k) v(t), the
-orbits of k periods begin as u + e Re(exp(i phi) v) for the phases phi at which the other equations can be solved: two
-in a k-th part of a turn, the sides of one family at k = 3, two families at k = 4 (Meyer, Hall and Offin, Introduction
-to Hamiltonian Dynamical Systems and the N-Body Problem, 2009). They are sought among phases all around.
+At an IR with a multiplier exp(2 pi i p / k) of a family that keeps an energy, and v(t + T) = exp(2 pi i p / k) v(t),
+the orbits of k periods begin as u + e Re(exp(i phi) v) for the phases phi at which the other equations can be solved:
+two in a k-th part of a turn, the sides of one family at k = 3, two families at k = 4 (Meyer, Hall and Offin,
+Introduction to Hamiltonian Dynamical Systems and the N-Body Problem, 2009). They are sought among phases all around.
 """
 
 from __future__ import annotations
@@ -103,17 +103,19 @@ def system_at(flow: Flow, path: Path, shift: Array, values: Values, free: tuple)
 
 
 def departures(
-    flow: Flow, path: Path, shift: Array, system: System, x: Array, y: Array, order: int, settings: Settings
+    flow: Flow, path: Path, shift: Array, system: System, x: Array, y: Array, root: tuple[int, int], settings: Settings
 ) -> list[Departure]:
-    """Return where curves of orbits of `order` periods are entered beside an IR (x, y) of `system`: two at most.
+    """Return where curves of orbits of k periods are entered beside an IR (x, y) of `system`: two at most.
 
-    They are neighbours in phase: the sides of one family, or two families.
+    `root` (k, p) says which root of one a multiplier is, exp(2 pi i p / k). They are neighbours in phase: the sides of
+    one family, or two families.
     """
     local = system.local(x, y)
-    orbits, theta = orbits_of(local), 2.0 * math.pi / order
-    v = Torus(local, theta).vectors(local, np.array([theta]))[0] * orbits.state_scale[: orbits.ends + orbits.inside]
+    orbits, order, theta = orbits_of(local), root[0], 2.0 * math.pi / root[0]
+    angle = theta * root[1]
+    v = Torus(local, angle).vectors(local, np.array([angle]))[0] * orbits.state_scale[: orbits.ends + orbits.inside]
     s, w = v[: orbits.ends].reshape(-1, orbits.flow.d), v[orbits.ends :].reshape(orbits.w_shape)
-    turns = np.exp(1j * theta * np.arange(order)).tolist()
+    turns = np.exp(1j * angle * np.arange(order)).tolist()
     turning = Path(path.scheme, path.order, path.mesh, s, w, 0.0).repeated(np.zeros(orbits.flow.d), turns)
     whole = path.repeated(shift, [1.0] * order)
     many = laid(flow, whole, order * shift)

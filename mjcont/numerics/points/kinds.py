@@ -105,7 +105,7 @@ KINDS = {
         Kind("PD", "period doubling", ("d", 5.5), _CYCLES, coefficients=("type",)),
         Kind("NS", "Neimark-Sacker point", ("p", 7.0), _CYCLES, coefficients=("type", "theta", "rotation")),
         Kind("BPC", "branch point of cycles", ("8", 6.0), _CYCLES),
-        Kind("IR", "internal resonance", ("D", 4.5), _CYCLES, coefficients=("order",)),
+        Kind("IR", "internal resonance", ("|", 9.0), _CYCLES, coefficients=("order",)),
         *(
             Kind(code, name, None if marker is None else (marker, 6.5), _ON_CYCLES)
             for code, name, marker in (

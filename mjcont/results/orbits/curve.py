@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.points.kinds import name_of
@@ -18,7 +19,7 @@ from mjcont.results.orbits.orbit import Orbit
 from mjcont.results.points import Point, SpecialPoint, show
 from mjcont.results.quantities import column_of
 
-CYCLES, RESPONSES, MODES, BACKBONE = "cycles", "responses", "modes", "backbone"
+CYCLES, RESPONSES, MODES, BACKBONE = "cycles", "responses", "nonlinear modes", "backbone"
 # observables that a summary line shows
 _SHOWN = 3
 
@@ -95,8 +96,6 @@ class CycleBranch(Branch):
     def __getitem__(self, name: Any) -> Any:
         """Return a column by name, (N,), or a row by index, an `OrbitPoint`."""
         if isinstance(name, int | np.integer):
-            if not -len(self) <= name < len(self):
-                raise IndexError(f"row {name} is not on the curve: it has rows 0 to {len(self) - 1}")
             return self.row(int(name))
         if isinstance(name, str) and self.envelope(name) and name not in self.fixed:
             raise unknown_name("column", name, [f"{self.envelope(name)}.{what}" for what in self._numbers])
@@ -115,10 +114,11 @@ class CycleBranch(Branch):
     def _numbers(self) -> list[str]:
         return list(dict.fromkeys(n.rpartition(".")[2] for n, c in self.columns.items() if c.role == "observable"))
 
+    @checked
     def row(self, index: int) -> OrbitPoint:
         """Return a row, an `OrbitPoint`."""
-        index = range(len(self))[index]
         p = Branch.row(self, index)
+        index %= len(self)
         own = {f.name: getattr(p, f.name) for f in fields(p)}
         numbers = {c.name: float(c.values[index]) for c in self.columns.values() if c.role == "orbit"}
         own["observables"] = {**numbers, **p.observables}
@@ -135,6 +135,7 @@ class CycleBranch(Branch):
             found.append(SpecialOrbit(**{f.name: getattr(p, f.name) for f in fields(p)}, orbit=row.orbit))
         return tuple(found)
 
+    @checked
     def at(self, **target: float) -> list[Point]:
         """Return the orbits at which a free parameter has a value, corrected to it (there may be several).
 

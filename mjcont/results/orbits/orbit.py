@@ -230,11 +230,14 @@ class Orbit(Shown):
         )
 
     @checked
-    def plot(self, x: str, y: str | None = None, **options: Any) -> Axes:
-        """Draw the orbit: y against x, by default the rate of x; "time" may be either. Options as `plot_orbits`."""
+    def plot(self, x: str = "", y: str | None = None, **options: Any) -> Axes:
+        """Draw y (by default the rate of x) against x (by default the first observable); "time" may be either.
+
+        Options as for `plot_orbits`.
+        """
         from mjcont.drawing.orbits import plot_orbits
 
-        axes: Axes = plot_orbits(self, x=x, y=y, **options)
+        axes: Axes = plot_orbits(self, x=x or self.reading.names[0], y=y, **options)
         return axes
 
     def __str__(self) -> str:
