@@ -72,8 +72,9 @@ def backbone(
     """
     if not isinstance(response, CycleBranch) or response.kind != RESPONSES or len(response.free) != 1:
         raise MjcontError("a backbone belongs to a curve of responses in frequency (continue_response)")
-    flow = flow_for(response.model, response.forcing)
+    flow = flow_for(response.model, response.forcing, response.orbits[0].chart)
     free, condition, begin = _sought(flow, response, parameter, bounds, observable)
+    flow = flow_for(response.model, response.forcing, begin.chart)
     own = {"scheme": begin.path.scheme.name, "degree": begin.path.scheme.degree}
     read = read_options(flow, {**own, **options})
     lead, tuned = free
@@ -176,7 +177,7 @@ def _driven_coordinate(flow: ModelFlow, response: CycleBranch, name: str) -> str
     values = orbit.constants() | {name: orbit.parameters[name]}
     force = model.linearize(flow.state(orbit.path.s[0]), values, (name,)).par
     acts = np.flatnonzero(np.abs(force[:, 0]) > _NONE * np.abs(force).max())
-    if len(acts) != 1:
+    if len(acts) != 1 or flow.chart is not None:  # a rotation is no coordinate of the model
         return None
     i = int(acts[0]) - (0 if model.second_order else n // 2)
     return model.state_labels[i][0] if 0 <= i < n else None

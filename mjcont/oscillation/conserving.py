@@ -16,7 +16,8 @@ from mjcont.numerics.equations.differences import FOURTH_ORDER, SECOND_ORDER, ja
 from mjcont.numerics.equations.problem import Array, Range, Ranges, Stencil, Values
 from mjcont.numerics.equations.starts import find_start
 from mjcont.numerics.orbits.conserved import ENERGY, FREQUENCY, ConservativeFlow
-from mjcont.numerics.orbits.flow import Rates
+from mjcont.numerics.orbits.flow import Flow, Rates
+from mjcont.numerics.orbits.path import Path
 from mjcont.oscillation.fields import FieldFlow
 from mjcont.oscillation.flows import ModelFlow
 from mjcont.results.orbits import MODES
@@ -51,7 +52,7 @@ class Conserving(ModelFlow, ConservativeFlow):
     def __init__(self, inner: ModelFlow, energy: Energy, chosen_by: str, even: bool, rest: Array) -> None:
         self.inner, self.model, self.forcing = inner, inner.model, None
         self.chosen_by, self.even, self.rest = chosen_by, even, rest
-        self.order, self.c, self.scale = inner.order, inner.c, inner.scale
+        self.order, self.c, self.scale, self.chart = inner.order, inner.c, inner.scale, inner.chart
         self._energy, self._moves = energy, has_velocities(inner, rest)
         self.energy_unit = "" if isinstance(inner, FieldFlow) else "J"
         unit = "Hz" if chosen_by == FREQUENCY else self.energy_unit
@@ -112,6 +113,29 @@ class Conserving(ModelFlow, ConservativeFlow):
             half = self.c // 2
             return np.hstack([np.zeros((len(states), half)), states[:, half:]])
         return self.scale**2 * self._slopes(states, values, SECOND_ORDER)
+
+    # -- coordinates -------------------------------------------------------------------------------------------
+
+    def state(self, state: Array) -> Array:
+        """Return the model's state (nq,) of a state (d,)."""
+        return self.inner.state(state)
+
+    def shown(self, state: Array) -> Array:
+        """Return a state (d,) in coordinates that a user knows."""
+        return self.inner.shown(state)
+
+    def centred(self, path: Path) -> Flow:
+        """Return the same motion in coordinates that suit an orbit better, or itself."""
+        other = self.inner.centred(path)
+        if other is self.inner:
+            return self
+        assert isinstance(other, ModelFlow)
+        return conserving(other, self.chosen_by, self.even, other.resting(self.state(self.rest), {}))
+
+    def taken(self, path: Path, flow: Flow) -> Path:
+        """Return an orbit in the coordinates of `flow` as one in these."""
+        assert isinstance(flow, Conserving)
+        return self.inner.taken(path, flow.inner)
 
     # -- energy ------------------------------------------------------------------------------------------------
 
@@ -184,7 +208,7 @@ class Conserving(ModelFlow, ConservativeFlow):
 
     def record(self) -> dict[str, Any]:
         """Return what files keep of it."""
-        return {"conserves": {"chosen_by": self.chosen_by, "even": self.even, "rest": self.rest.tolist()}}
+        return {"conserves": {"chosen_by": self.chosen_by, "even": self.even, "rest": self.state(self.rest).tolist()}}
 
 
 # -- from a model ----------------------------------------------------------------------------------------------
@@ -211,8 +235,16 @@ def conserving(inner: ModelFlow, chosen_by: str, even: bool, rest: Array) -> Con
 def _energy_of_mechanism(inner: ModelFlow) -> Energy:
     from mjcont.mechanism.energy import energy_in_motion  # MuJoCo is imported only where there is a Mechanism
 
-    n, model = inner.c, inner.model
-    return lambda states, values: energy_in_motion(model, states[:, :n], states[:, n:], values)
+    n, model, chart = inner.c, inner.model, inner.chart
+
+    def energy(states: Array, values: Values) -> Array:
+        places, speeds = states[:, :n], states[:, n:]
+        if chart is None:
+            return energy_in_motion(model, places, speeds, values)
+        moving = chart.moving(places, speeds)
+        return energy_in_motion(model, moving.poses, moving.speeds, values)
+
+    return energy
 
 
 def _energy_of_field(inner: FieldFlow, rest: Array) -> Energy:
@@ -298,7 +330,8 @@ def keeps_energy(flow: Conserving, values: Values) -> bool:
 
 def flow_as_recorded(inner: ModelFlow, record: Mapping[str, Any]) -> Conserving:
     """Return the motion as files keep it."""
-    return conserving(inner, record["chosen_by"], bool(record["even"]), np.array(record["rest"], dtype=float))
+    rest = inner.resting(np.array(record["rest"], dtype=float), {})
+    return conserving(inner, record["chosen_by"], bool(record["even"]), rest)
 
 
 # -- what is left out ------------------------------------------------------------------------------------------
@@ -341,6 +374,7 @@ def _conserving(inner: ModelFlow, x: Array, values: Values, chosen_by: str) -> t
     found = find_start(inner.model, x, values)
     if found.failure is not None:
         raise StartError(f"no equilibrium found at which modes could begin: {found.failure}")
+    inner = inner.about(found.x)
     rest = inner.resting(found.x, values)
     even = loses(inner, rest, values)
     return conserving(inner, chosen_by, even, rest), even

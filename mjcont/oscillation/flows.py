@@ -14,7 +14,7 @@ from mjcont.numerics.orbits.path import Path
 from mjcont.oscillation.forced import FREQUENCY, Forcing, forcing_parameter, split
 from mjcont.results.model import Model
 from mjcont.results.orbits import CYCLES, RESPONSES, Chart, Reading
-from mjcont.results.quantities import Parameter
+from mjcont.results.quantities import Parameter, finite
 
 # speed, relative to what a state's own size would bring about, that counts as none
 _AT_REST = 1e-6
@@ -107,7 +107,8 @@ class ModelFlow(Flow):
 
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the defaults for the others."""
-        theirs, own = split(given or {}, self.forcing)
+        numbers = {n: finite(f"parameter '{n}': the value", v) for n, v in (given or {}).items()}
+        theirs, own = split(numbers, self.forcing)
         found = self.model.values(theirs)
         for name, p in (self.forcing.parameters if self.forcing is not None else {}).items():
             found[name] = own.get(name, p.value)

@@ -140,9 +140,8 @@ def check_inputs(model: Model, forcing: Forcing, values: Values) -> None:
 
 def split(given: Values, forcing: Forcing | None) -> tuple[dict[str, float], dict[str, float]]:
     """Return the values of the model's parameters, and those of the forcing's."""
-    numbers = {n: finite(f"parameter '{n}': the value", v) for n, v in given.items()}
-    own = {} if forcing is None else {n: v for n, v in numbers.items() if n in forcing.parameters}
-    return {n: v for n, v in numbers.items() if n not in own}, own
+    own = {} if forcing is None else {n: float(v) for n, v in given.items() if n in forcing.parameters}
+    return {n: float(v) for n, v in given.items() if n not in own}, own
 
 
 def forcing_parameter(model: Model, forcing: Forcing | None, name: str) -> Parameter:

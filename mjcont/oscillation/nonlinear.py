@@ -129,6 +129,10 @@ def _from_rest(
     options: Mapping[str, Any],
 ) -> CycleBranch:
     x, values = start_from(origin, _plain(start), keyframe, state)
+    loose = origin.rigid_modes(x, values)
+    if loose:
+        raise MjcontError(f"{origin.name} moves freely: nothing opposes {' and '.join(loose)}, which would make every "
+                          "orbit one of many; let a spring do it")
     flow, values, notes = without_losses(_unforced(origin), x, values, parameter)
     read = read_options(flow, {"scheme": "gauss", **options})
     if bounds is None:
@@ -160,8 +164,6 @@ def _unforced(problem: Model) -> ModelFlow:
     if isinstance(problem, VectorField) and problem.period is not None:
         raise MjcontError(f"{problem.name} is forced: modes are motions without inputs; give the field without them")
     found = flow_of(problem)
-    if found.chart is not None:
-        raise MjcontError(f"{problem.name} has ball or free joints: modes are followed in hinges and slides only")
     if found.activated:
         raise MjcontError(f"{problem.name} has actuators with states of their own (filters, muscles), which keep no "
                           "energy: make them motors")

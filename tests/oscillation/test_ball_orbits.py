@@ -174,6 +174,17 @@ def test_motions_beside_confirm_the_stability_of_cones_and_of_tumbling():
         assert mc.verify_stability(curve, n=2).certificate.holds
 
 
+@pytest.mark.long
+def test_a_nonlinear_mode_on_a_ball_joint_is_that_on_a_hinge(tmp_path):
+    found = []
+    for ball in (True, False):
+        curve = mc.continue_modes(rod(ball, joint='stiffness="2"'), "energy", (1e-3, 3.0), chord=0.5)
+        again = mc.load(curve.save(tmp_path / f"mode{ball}.h5"), problem=rod(ball, joint='stiffness="2"'))
+        found.append(again.at(energy=2.0)[0])
+    assert found[0]["period"] == pytest.approx(found[1]["period"], rel=1e-10)
+    assert found[0]["tip[0].max"] == pytest.approx(found[1]["tip[0].max"], rel=1e-9)
+
+
 # -- how far a rotation is told --------------------------------------------------------------------------------------
 
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from problems.motions import brusselator, duffing, van_der_pol
 
 import mjcont as mc
+from mjcont.oscillation.forced import make_forcing
+from mjcont.oscillation.walks import flow_of
 
 
 def pendulum(joint="", damping=0.5, motor='<motor name="torque" joint="pivot"/>'):
@@ -109,3 +112,10 @@ def test_a_users_own_frequency_keeps_its_name():
     curve = mc.continue_cycles(mc.VectorField(f, [1.0, 0.0], {"frequency": 1.0}), "frequency", (1.0, 2.0), direction=1)
     assert curve["frequency"][-1] == 2.0
     assert curve["period"][-1] == pytest.approx(math.pi, rel=1e-9)
+
+
+def test_a_trial_parameter_that_is_no_number_is_no_error():
+    mechanism = pendulum()
+    flow = flow_of(mechanism, make_forcing(mechanism, {"torque": mc.Harmonic(0.1)}, 0.2))
+    values = {**flow.values(), "torque.amplitude": math.nan}
+    assert np.isnan(flow.rates(np.zeros((1, 2)), np.zeros(1), values)).all()
