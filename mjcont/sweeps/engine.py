@@ -29,6 +29,8 @@ from mjcont.sweeps.jobs import NOMINAL, Item, run_items
 
 _TASK = 16  # cases in a task, at most
 _DEATHS = 2
+# seconds that the thread of a pool has to see its processes end
+_PATIENCE = 5.0
 
 
 class Inline(Executor):
@@ -90,9 +92,12 @@ class LocalCrew(Crew):
     def close(self) -> None:
         """Stop the processes without waiting for what they compute."""
         running = list((getattr(self.executor, "_processes", None) or {}).values())
+        manager = getattr(self.executor, "_executor_manager_thread", None)
         self.executor.shutdown(wait=False, cancel_futures=True)
         for process in running:  # Python itself would wait for them at its end
             process.terminate()
+        if manager is not None:  # it must not close what Python's end still writes to
+            manager.join(_PATIENCE)
 
 
 class Tree:

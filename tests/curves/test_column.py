@@ -102,7 +102,7 @@ def test_each_buckling_load_adds_one_unstable_eigenvalue(straight):
     assert np.array_equal(straight.n_unstable[rows], expected[rows])
 
 
-@pytest.mark.parametrize("count", [1, 2, 3, 5, 12, 24])
+@pytest.mark.parametrize("count", [1, 2, 3, 5, 12, pytest.param(24, marks=pytest.mark.long)])
 def test_a_column_of_any_number_of_links_buckles_at_the_closed_form(count):
     critical = 4.0 * math.sin(math.pi / (4 * count)) ** 2
     mechanism = mc.Mechanism.from_xml(column(count))

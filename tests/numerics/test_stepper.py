@@ -97,7 +97,7 @@ def test_the_separate_branch_of_an_imperfect_pitchfork_has_its_one_fold(eps):
     assert mu == pytest.approx(3.0 * (abs(eps) / 2.0) ** (2.0 / 3.0), rel=1e-10)
 
 
-@pytest.mark.parametrize("gap", [0.3, 0.1, 0.03, 0.01, 1e-3])
+@pytest.mark.parametrize("gap", [0.3, 0.03, 1e-3, *(pytest.param(g, marks=pytest.mark.long) for g in (0.1, 0.01))])
 @pytest.mark.parametrize("upper", [False, True], ids=["lower", "upper"])
 def test_curves_side_by_side_are_not_jumped_between(gap, upper):
     shift = gap if upper else 0.0

@@ -88,6 +88,7 @@ def test_multipliers_of_a_cone_are_those_of_rest_in_turning_axes():
 # -- a free body ----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_a_free_body_on_springs_answers_little_torques_as_its_transfer_function_says():
     body, size = floating(), 1e-4
     curve = mc.continue_response(body, "frequency", (0.3, 0.31), {"torque": mc.Harmonic(size)}, chord=0.5)

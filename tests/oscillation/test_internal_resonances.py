@@ -35,6 +35,7 @@ def test_a_mode_resonates_where_its_pair_passes_a_third_root_of_one(out_of_phase
         assert np.trace(monodromy(cubic_pair(), p.orbit)) == pytest.approx(2.0 - 1.0, abs=1e-6)
 
 
+@pytest.mark.long
 def test_a_family_in_frequency_has_the_same_resonances(out_of_phase):
     curve = mc.continue_modes(cubic_pair(), "frequency", (1.8 / TWO_PI, 2.05 / TWO_PI), mode=2)
     other = [p["energy"] for p in curve.special_points]
@@ -66,6 +67,7 @@ def test_a_bouncing_mass_begins_to_swing_where_hills_equation_says():
     assert abs(orbit.harmonics("x", 2)[1]) > 0.05
 
 
+@pytest.mark.long
 def test_a_fold_is_told_by_the_energy_also_in_frequency():
     """The energy of the unsymmetric motions of two masses turns; in frequency they pass there."""
     begin = mc.continue_modes(cubic_pair(), "energy", (38.0, 42.0)).point("BPC1")

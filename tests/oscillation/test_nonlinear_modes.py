@@ -149,7 +149,7 @@ def test_an_equilibrium_about_which_nothing_swings_has_no_modes():
 # -- stiff bushes ---------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("stiffness", [1e3, 1e6])
+@pytest.mark.parametrize("stiffness", [pytest.param(1e3, marks=pytest.mark.long), 1e6])
 def test_a_mode_on_elastic_pins_begins_as_the_linear_one_and_is_stable(stiffness):
     overcentre = mc.Mechanism.from_xml("overcentre")
     start = {"F": 30.0, "k_j": stiffness}

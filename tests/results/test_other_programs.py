@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import mjcont as mc
-from mjcont.outside.hdf5text import Attributes, read_text, read_texts, write_text
+from mjcont.outside.hdf5text import Attributes, put_text, read_text, read_texts
 
 WRITTEN = Path(__file__).parent / "written"
 FILES = sorted(str(p.relative_to(WRITTEN)) for p in WRITTEN.rglob("*.h5"))
@@ -90,7 +90,7 @@ def test_complex_vectors_come_back(written: dict[str, Path]) -> None:
 def test_any_text_comes_back_from_a_group_and_from_a_dataset(tmp_path: Path, text: str) -> None:
     with h5py.File(tmp_path / "t.h5", "w") as f:
         f["numbers"] = np.zeros(3)
-        write_text(f, "text", text)
+        put_text(f, "text", text)
         for item in (f, f["numbers"]):
             Attributes(item).update(text=text, truth=True)
             found = Attributes(item)
@@ -130,7 +130,7 @@ def test_octave_reads_the_values_of_special_points(written: dict[str, Path]) -> 
 
 def test_modes_and_transfer_functions_of_a_pendulum_load() -> None:
     """A rod of length 1 m and its hinge: w0^2 = m g l / I, the response at rest 1 / (m g l)."""
-    modes, transfer = mc.load(WRITTEN / "modes.h5"), mc.load(WRITTEN / "transfer.h5")
+    modes, transfer = (mc.load(WRITTEN / "linear" / f"{name}.h5") for name in ("modes", "transfer"))
     inertia, stiffness = modes.mass[0, 0], modes.stiffness[0, 0]
     assert modes[0].natural_omega == pytest.approx((stiffness / inertia) ** 0.5)
     omega = 2.0 * np.pi * transfer.frequencies
