@@ -74,13 +74,14 @@ def _branch(branch: Branch) -> dict[str, Any]:
 def of_point(point: Point) -> dict[str, Any]:
     """Return a point's values with their units, and of a special point what it is."""
     named = {**point.parameters, **point.observables}
-    values = {n: {"value": v, "unit": point.units.get(n, "")} for n, v in named.items()}
+    known = {**({n: p.unit for n, p in point.problem.parameters.items()} if point.problem else {}), **point.units}
+    values = {n: {"value": v, "unit": known.get(n, "")} for n, v in named.items()}
     facts: dict[str, Any] = {"stability": point.stability, "unstable": point.n_unstable, "values": values}
     if not isinstance(point, SpecialPoint):
         return facts
     own = {"label": point.label, "kind": point.kind, "name": name_of(point.kind), "row": point.index}
-    known = {"coefficients": point.coefficients, "tolerance": point.tolerance, "converged": point.converged}
-    return {**own, "free": list(point.free), **known, **facts}
+    located = {"coefficients": point.coefficients, "tolerance": point.tolerance, "converged": point.converged}
+    return {**own, "free": list(point.free), **located, **facts}
 
 
 def of_mechanism(mechanism: Mechanism, modes: Modes | None, files: Sequence[str]) -> dict[str, Any]:

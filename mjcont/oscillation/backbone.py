@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import check_direction
 from mjcont.errors import MjcontError, ParameterError, StartError, unknown_name
@@ -31,6 +32,7 @@ from mjcont.results.quantities import column_of
 _NONE = 1e-9
 
 
+@checked
 @np.errstate(all="ignore")
 def backbone(
     response: CycleBranch,

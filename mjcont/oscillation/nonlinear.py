@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.arguments import checked
 from mjcont.curves.collect import Progress
 from mjcont.curves.continuation import start_from
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StartError, unknown_name
@@ -41,6 +42,7 @@ _LEAST, _MOST = 1e-2, 1e2
 _FEWEST, _MANY = 3, 12
 
 
+@checked
 @np.errstate(all="ignore")
 def continue_modes(
     origin: Model | SpecialOrbit | OrbitPoint | Orbit,

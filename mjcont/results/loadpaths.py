@@ -118,6 +118,7 @@ class Jump(Shown):
     load: float = math.nan
     passage: Passage | None = None
 
+    @checked
     def delay(self, rate: float) -> Delay:
         """Return how late the jump is under a load that changes at a rate, per s, that is, how slow is slow.
 
@@ -133,6 +134,7 @@ class Jump(Shown):
             raise ParameterError(f"the rate of {self.parameter} must be a number other than zero, got {rate!r}")
         return Delay(form.time(rate), form.shift(rate), form.inertial(rate))
 
+    @checked
     def slow(self, part: float = 0.01) -> float:
         """Return the rate, per s, at which the jump is late by a part of the load.
 

@@ -173,3 +173,34 @@ def test_a_shaken_pendulum_swings_at_twice_the_period(swinging):
     mu = -0.17015549733042729 + 0.7103064112193682j
     assert holds(point.orbit, 6.283185307179586, mu, mu.conjugate())
     assert swinging.special_points == ()
+
+
+def nerve(u, p):
+    """Hodgkin and Huxley's equations in mV and ms, rest at 0 mV."""
+
+    def over(z):
+        return z / math.expm1(z) if abs(z) > 1e-9 else 1.0 - 0.5 * z
+
+    v, m, h, n = u
+    ionic = 120.0 * m**3 * h * (v - 115.0) + 36.0 * n**4 * (v + 12.0) + 0.3 * (v - 10.599)
+    return [
+        p["I"] - ionic,
+        over(0.1 * (25.0 - v)) * (1.0 - m) - 4.0 * math.exp(-v / 18.0) * m,
+        0.07 * math.exp(-v / 20.0) * (1.0 - h) - h / (math.exp(0.1 * (30.0 - v)) + 1.0),
+        0.1 * over(0.1 * (10.0 - v)) * (1.0 - n) - 0.125 * math.exp(-v / 80.0) * n,
+    ]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("mesh", [None, 80])
+def test_the_cycles_of_a_nerve_lead_from_one_hopf_point_to_the_other_over_three_folds(mesh):
+    """Rinzel and Miller (Mathematical Biosciences 49, 1980) have the folds at 7.846, 7.922 and 6.265 uA/cm2.
+
+    On the way a multiplier reaches millions, and the period more than doubles without growing without bound.
+    """
+    field = mc.VectorField(nerve, [0.0, 0.053, 0.596, 0.318], {"I": 0.0}, names=["V", "m", "h", "n"])
+    first, second = mc.continue_equilibria(field, "I", (0.0, 200.0)).special_points
+    cycles = mc.continue_cycles(first, bounds=(0.0, 200.0), **({} if mesh is None else {"mesh": mesh}))
+    assert dict(cycles.ends)["rest"] == "the orbit shrinks to a Hopf point (HB)"
+    assert cycles["I"].max() == pytest.approx(second["I"], rel=1e-3)
+    assert [p["I"] for p in cycles.of_kind("LPC")] == pytest.approx([7.846, 7.922, 6.265], abs=1e-3)

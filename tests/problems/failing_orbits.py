@@ -252,6 +252,7 @@ CASES = {
     "forms.cubic_of_doubling": lambda b: forms.cubic_of_doubling(b.point()),
     "forms.cubic_of_torus": lambda b: forms.cubic_of_torus(b.point(), 1.0),
     "forms.side_of": lambda b: forms.side_of(math.nan),
+    "linger.may_linger": lambda b: linger.may_linger(b.flow, b.path, b.values, b.orbits.sizes),
     "linger.lingering": lambda b: linger.lingering(b.flow, b.path, b.values, b.orbits.sizes),
     "linger.shrunk_to": lambda b: linger.shrunk_to(b.orbits, b.path, b.values, True),
     "linger.first_order": lambda b: linger.first_order(b.flow, b.path.s[0], b.values),

@@ -87,7 +87,7 @@ def multipliers(orbits: Orbits, blocks: Blocks, period: float, velocity: Array) 
     scale, own = orbits.sizes, velocity if orbits.own_period else None
     values, vectors, trivial = _spectrum(matrices, scale, own)
     known = [] if trivial is None else [trivial]
-    if fast is None:
+    if fast is None or fast.count > len(values):  # of all modes none can be told apart from the velocity
         every, resolved = [known, values], np.ones(d, dtype=bool)
     else:
         slow = values[fast.least(vectors, len(values) - fast.count)]

@@ -21,7 +21,7 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.conserved import orbits_on
 from mjcont.numerics.orbits.flow import Flow
-from mjcont.numerics.orbits.linger import lingering, shrunk_to
+from mjcont.numerics.orbits.linger import lingering, may_linger, shrunk_to
 from mjcont.numerics.orbits.mesh import count_for, equidistributed, error_of
 from mjcont.numerics.orbits.passing import cycle_detectors
 from mjcont.numerics.orbits.path import Path
@@ -288,7 +288,10 @@ class Follower:
 def _blurred(p: CurvePoint, first: float) -> bool:
     """Whether an orbit takes so much longer than the first that its multipliers have lost their digits."""
     m = multipliers_at(p)
-    return _period(p) > _LONGER * first and not abs(m.values[m.trivial] - 1.0) <= _BLURRED
+    if _period(p) <= _LONGER * first or abs(m.values[m.trivial] - 1.0) <= _BLURRED:
+        return False
+    orbits = orbits_at(p)  # a multiplier of a million blurs the others, too
+    return may_linger(orbits.flow, path_at(p), p.local.values, orbits.sizes)
 
 
 def _without_bound(p: CurvePoint) -> str:

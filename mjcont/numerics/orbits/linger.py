@@ -17,21 +17,41 @@ from mjcont.numerics.orbits.path import Path
 _STEPS, _SETTLED = 30, 1e-10
 # an equilibrium farther from the orbit's slowest place than this part of its extent is another one
 _NEAR = 0.1
+# an orbit lingers where its speed is below this part of its mean
+_SLOW = 0.05
 # eigenvalues nearer to the axis than this part of the orbit's frequency are critical: the orbit is small, not zero
 _CRITICAL = 0.03
 
 
 def lingering(flow: Flow, path: Path, values: Values, sizes: Array) -> str:
     """Return a clause on where an orbit is slowest: at which equilibrium, with its eigenvalues."""
-    speed = np.linalg.norm(path.slopes(path.mesh) / sizes, axis=1)
-    slowest = path.s[int(np.argmin(speed))]
-    found = _equilibrium(flow, slowest, values)
-    if found is None or np.abs((found - slowest) / np.maximum(np.ptp(path.s, axis=0), sizes)).max() > _NEAR:
+    slowest, found = _slowest(flow, path, values, sizes)
+    if found is None:
         return f"it lingers near ({_shown(flow, slowest)}), where there is no equilibrium any more"
     eigenvalues = np.linalg.eigvals(first_order(flow, found, values))
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
     rates = ", ".join(f"{v.real:.4g}" if v.imag == 0.0 else f"{v.real:.4g}{v.imag:+.4g}i" for v in eigenvalues)
     return f"it lingers at the equilibrium ({_shown(flow, found)}) with eigenvalues {rates} 1/s"
+
+
+def may_linger(flow: Flow, path: Path, values: Values, sizes: Array) -> bool:
+    """Whether an orbit may have a period that grows without bound: slow at a saddle, or where none is any more."""
+    _, found = _slowest(flow, path, values, sizes)
+    if found is None:
+        speed = np.linalg.norm(path.slopes(path.mesh) / sizes, axis=1)
+        return float(speed.min()) < _SLOW * float(speed.mean())
+    rates = np.linalg.eigvals(first_order(flow, found, values))
+    return bool(np.isfinite(rates).all() and rates.real.max() > 0.0 > rates.real.min())
+
+
+def _slowest(flow: Flow, path: Path, values: Values, sizes: Array) -> tuple[Array, Array | None]:
+    """Return where an orbit is slowest, and the equilibrium near that place, None where there is none."""
+    speed = np.linalg.norm(path.slopes(path.mesh) / sizes, axis=1)
+    slowest = path.s[int(np.argmin(speed))]
+    found = _equilibrium(flow, slowest, values)
+    if found is None or np.abs((found - slowest) / np.maximum(np.ptp(path.s, axis=0), sizes)).max() > _NEAR:
+        return slowest, None
+    return slowest, found
 
 
 def shrunk_to(orbits: Orbits, path: Path, values: Values, on_locus: bool) -> str:
