@@ -62,6 +62,21 @@ class Target:
         return self.scale * plain**self.power if plain > 0 else math.nan
 
 
+def far_angle(name: str, unit: str, *values: float) -> str:
+    """Return a sentence about the first angle beyond a turn, likely one in degrees; empty if there is none."""
+    turn = 2.0 * math.pi
+    far = next((v for v in values if unit == "rad" and abs(v) > turn * (1.0 + 1e-9)), None)
+    return "" if far is None else _outside(name, unit, far, -turn, turn, "a turn")
+
+
+def _outside(name: str, unit: str, value: float, low: float, high: float, what: str) -> str:
+    """Return the sentence that a value lies outside a range, and what may have been meant."""
+    shown_in, factor = displayed(unit)
+    shown, start, end = (f"{v * factor:.7g} {shown_in}".rstrip() for v in (value, low, high))
+    hint = mistaken(value, unit, low, high)
+    return f"{name} = {shown} lies outside {what}, {start} to {end}" + (f': did you mean "{hint}"?' if hint else "")
+
+
 @dataclass(frozen=True, slots=True)
 class Parameter:
     """A named scalar that acts on the model.
@@ -170,19 +185,13 @@ class Parameter:
         low, high = self.bounds
         guesses = (default_bounds(self.value, self.unit), default_bounds(self.value))
         stated = self.kind not in ("switch", "gravity") and not self.springs and self.bounds not in guesses
-        if self.unit == "rad" and not stated:
-            low, high = -2.0 * math.pi, 2.0 * math.pi
-        elif not stated:
-            return ""
+        if not stated:
+            return far_angle(self.name, self.unit, *values)
         slack = 1e-9 * max(abs(low), abs(high))
         far = next((v for v in values if not low - slack <= v <= high + slack), None)
         if far is None:
             return ""
-        unit, factor = displayed(self.unit)
-        shown, start, end = (f"{v * factor:.7g} {unit}".rstrip() for v in (far, low, high))
-        hint = mistaken(far, self.unit, low, high)
-        return (f"{self.name} = {shown} lies outside {'its range' if stated else 'a turn'}, {start} to {end}"
-                + (f': did you mean "{hint}"?' if hint else ""))
+        return _outside(self.name, self.unit, far, low, high, "its range")
 
     @property
     def needs_constants(self) -> bool:

@@ -6,10 +6,10 @@ import math
 from dataclasses import fields
 from typing import Any
 
-from mjcont.errors import MjcontError, unknown_name
+from mjcont.errors import MjcontError, RangeWarning, unknown_name, warn
 from mjcont.numerics.equations.settings import Settings, make_settings
 from mjcont.results.model import check_bounds, units, warn_outside
-from mjcont.results.quantities import column_of, meant
+from mjcont.results.quantities import column_of, far_angle, meant
 from mjcont.studies import forms as f
 from mjcont.studies.forms import FILE_STEM
 from mjcont.studies.keys import Context, Reader, about, check_keys, takes
@@ -195,6 +195,7 @@ def region(table: Table, key: str, context: Context) -> dict[str, tuple[float, f
             if own not in unit_of:
                 raise inner.error(name, unknown_name("observable, joint or parameter", name, unit_of))
             found[own] = pair(inner, name, unit_of[own])
+            _note_far(own, unit_of[own], *found[own])
     return found
 
 
@@ -260,7 +261,15 @@ def zeros(table: Table, key: str, context: Context) -> dict[str, float | tuple[f
             several = [unit_of[own]] * len(given) if isinstance(given, list) else []
             values = inner.quantities(name, several, "a value or several") if several else None
             found[own] = values or inner.quantity(name, unit_of[own])
+            _note_far(own, unit_of[own], *(values or (found[own],)))
     return found
+
+
+def _note_far(name: str, unit: str, *values: Any) -> None:
+    """Warn of angles beyond a turn: degrees, without saying so."""
+    said = far_angle(name, unit, *values)
+    if said:
+        warn(said, RangeWarning)
 
 
 @takes(f.GRID)

@@ -105,3 +105,18 @@ def test_an_empty_model_says_that_it_is_empty(tmp_path):
     (tmp_path / "model.xml").write_text("\n", encoding="utf-8")
     with pytest.raises(mc.ModelError, match=r"model '.*model.xml': the file is empty"):
         mc.Mechanism.from_xml(tmp_path / "model.xml")
+
+
+@pytest.mark.parametrize("wrong", ["zeros = { theta_1 = 20 }", "zeros = { theta_1 = [0, 20] }"])
+def test_angles_beyond_a_turn_were_meant_in_degrees(tmp_path, wrong):
+    study = tmp_path / "s.toml"
+    study.write_text(f'model = "overcentre"\n[[branch]]\nname = "a"\nparameter = "F"\nbounds = [-50, 50]\n{wrong}\n')
+    with pytest.warns(mc.RangeWarning, match=r'lies outside a turn, -360 deg to 360 deg: did you mean "20 deg"\?'):
+        load_study(study)
+
+
+def test_a_region_beyond_a_turn_was_meant_in_degrees(tmp_path):
+    study = tmp_path / "s.toml"
+    study.write_text('model = "overcentre"\n[[searches]]\nname = "a"\nregion = { theta_1 = [-180, 20] }\n')
+    with pytest.warns(mc.RangeWarning, match='did you mean "-180 deg"'):
+        load_study(study)
