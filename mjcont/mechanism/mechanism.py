@@ -144,7 +144,8 @@ class Mechanism(Shareable, Observed, Held, Model):
         Parameters
         ----------
         paths : str
-            Fields such as `joint:hip.stiffness`, or `spec:geom:rod.size[0]`, with which the model is compiled anew.
+            Fields such as `joint:hip.stiffness`, or `spec:geom:rod.size[0]`, with which the model is compiled anew. An
+            actuator's control gets a unit and bounds under its own name with the path `control:NAME`.
         function : callable, optional
             Instead of paths: `function(spec, value)` edits a copy of the `MjSpec`; `value` is the parameter's own.
 
@@ -154,8 +155,11 @@ class Mechanism(Shareable, Observed, Held, Model):
             If the name is in use, a path matches nothing, or its targets disagree with each other in the loaded model.
         """
         with self._cores.lock:
-            if name in self.parameters:
-                raise ParameterError(f"parameter '{name}' is declared twice")
+            known = self.parameters.get(name)
+            own = known.targets[0].path if known is not None and known.kind == "control" else ""
+            if known is not None and (name in self.declared or not own or paths != (own,)):
+                said = f': its control may get a unit and bounds with the path "{own}"' if own else ""
+                raise ParameterError(f"parameter '{name}' is declared twice{said}")
             if bounds is not None and np.shape(bounds) != (2,):
                 raise BoundsError(f"bounds of {name} must be two numbers (low, high), got {bounds!r}")
             given, core = Declaration(name, unit, bounds, tuple(paths), function, value), self._core

@@ -345,3 +345,16 @@ def test_a_residual_takes_what_is_left_out_from_the_model(overcentre):
     expected = overcentre.residual(q, overcentre.values({"F": 3.0}))
     overcentre.residual(q, overcentre.values({"k_j": 7.0}))
     assert np.array_equal(overcentre.residual(q, {"F": 3.0}), expected)
+
+
+def test_a_control_gets_a_unit_and_bounds_under_its_own_name(pendulum_xml):
+    mechanism = mc.Mechanism.from_xml(pendulum_xml(actuator='<motor name="drive" joint="hip"/>'))
+    assert mechanism.parameters["drive"].unit == ""
+    with pytest.raises(mc.ParameterError, match='declared twice: .* with the path "control:drive"'):
+        mechanism.declare("drive", "actuator:drive.ctrl", unit="N*m")
+    mechanism.declare("drive", "control:drive", unit="N*m", bounds=(-5.0, 5.0))
+    branch = mc.continue_equilibria(mechanism, "drive")
+    assert branch.unit("drive") == "N*m"
+    assert [branch["drive"].min(), branch["drive"].max()] == [-5.0, 5.0]
+    with pytest.raises(mc.ParameterError, match="declared twice"):
+        mechanism.declare("drive", "control:drive", unit="N")
