@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 
+import mujoco
 import numpy as np
 import pytest
 from problems.balls import Cone, floating, lively, matrix, moved, rod, rotation, turned
+from scipy.integrate import solve_ivp
 
 import mjcont as mc
 
@@ -222,3 +224,27 @@ def test_a_curve_ends_where_the_spring_of_a_ball_joint_turns_over():
     curve = torqued(True, 40.0, 'stiffness="0.5" damping="0.5"')
     assert curve.status == "corner"
     assert "the spring of hip turns over" in curve.ends[-1][1]
+
+
+def test_a_weight_pushed_round_an_ellipse_comes_back_though_nothing_is_observed():
+    """The motion is that of MuJoCo's accelerations: q' = q (0, w) / 2 with w in the body's own axes."""
+    text = """<mujoco><worldbody><site name="w"/><body><joint type="ball" damping="0.1" stiffness="0.3"/>
+      <geom type="sphere" size=".1" pos="0 0 -.8" mass="1.2"/><site name="s" pos="0 0 -.8"/></body></worldbody>
+      <actuator><general name="x" site="s" refsite="w" gear="1 0 0 0 0 0"/>
+      <general name="y" site="s" refsite="w" gear="0 1 0 0 0 0"/></actuator></mujoco>"""
+    inputs = {"x": mc.Harmonic(0.6), "y": mc.Harmonic(0.4, phase=1.0)}
+    response = mc.continue_response(mc.Mechanism.from_xml(text), "frequency", (0.5, 0.6), inputs, max_points=3)
+    orbit, model = response[-1].orbit, mujoco.MjModel.from_xml_string(text)
+    data, turn = mujoco.MjData(model), 2.0 * math.pi / orbit.period
+
+    def rates(t, u):
+        data.qpos[:], data.qvel[:] = u[:4] / np.linalg.norm(u[:4]), u[4:]
+        data.ctrl[:] = 0.6 * math.cos(turn * t), 0.4 * math.cos(turn * t + 1.0)
+        mujoco.mj_forward(model, data)
+        spun = np.zeros(4)
+        mujoco.mju_mulQuat(spun, data.qpos, np.append(0.0, u[4:]))
+        return np.append(0.5 * spun, data.qacc)
+
+    begin = np.append(orbit.states[0], orbit.velocities[0])
+    run = solve_ivp(rates, (0.0, orbit.period), begin, method="DOP853", rtol=1e-11, atol=1e-13)
+    assert run.y[:, -1] == pytest.approx(begin, abs=1e-9)

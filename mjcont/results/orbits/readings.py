@@ -63,6 +63,8 @@ def along(path: Path, reading: Reading, k: int, tau: Array) -> tuple[Array, Arra
 def extremes(path: Path, reading: Reading) -> tuple[Array, Array]:
     """Return the largest and smallest values of all observables, of the polynomials through what is read."""
     nodes, values = _pieces(path, reading)
+    if not values.shape[2]:
+        return np.zeros(0), np.zeros(0)
     fine = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0.0, 1.0, _READ))
     weights = _weights(nodes, fine)
     read = np.einsum("tl,ilo->ito", weights, values)
