@@ -92,6 +92,9 @@ def _first_orbit(
         If none is found.
     """
     stiffness = _stiffness(flow, values, mode)
+    if not stiffness > 0.0:
+        raise StartError(f"the energy of {flow.model.name} does not grow along the mode of "
+                         f"{mode.omega / (2.0 * math.pi):.6g} Hz: modes are oscillations about a least energy")
     for size in _SIZES:
         energy = min(most, stiffness * size**2)
         orbits, x, _ = _small_orbit(flow, mode, math.sqrt(energy / stiffness), read)

@@ -164,3 +164,11 @@ def test_mechanisms_that_move_freely_are_refused(tmp_path):
     text = PENDULUM.replace('name="theta" type="hinge" axis="0 1 0"', 'name="theta" type="ball"')
     with pytest.raises(mc.MjcontError, match="nothing opposes rotation about z"):
         mc.continue_modes(loaded(text, tmp_path), "energy", (0.1, 1.0))
+
+
+@pytest.mark.parametrize("sign", [0.0, -1.0])
+def test_an_energy_that_does_not_grow_along_the_mode_is_refused(sign):
+    field = mc.VectorField(lambda u, p: [u[1], -u[0]], [0.0, 0.0], {"a": 1.0},
+                           energy=lambda u, p: sign * (u[0] ** 2 + u[1] ** 2))
+    with pytest.raises(mc.MjcontError, match="does not grow along the mode of 0.159155 Hz"):
+        mc.continue_modes(field, "energy", (0.1, 1.0))
