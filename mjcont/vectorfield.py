@@ -198,7 +198,9 @@ class VectorField(Model):
         try:
             for u, p, t in zip(states, values, times, strict=True):
                 check()
-                found.append(function(u, p, t) if timed else function(u, p))
+                value = function(u, p, t) if timed else function(u, p)
+                # the user may fill one array, or one list, again and again
+                found.append(value.copy() if isinstance(value, np.ndarray) else tuple(value))
             rows = np.array(found, dtype=float)
         except TimeUp:
             raise

@@ -7,22 +7,10 @@ from pathlib import Path
 
 import mujoco.viewer
 import pytest
+from problems.commands import STUDY
 
 import mjcont as mc
 from mjcont.commands.cli import main
-
-STUDY = """
-model = "overcentre"
-[[branch]]
-name = "equilibria"
-parameter = "F"
-bounds = [-50, 50]
-start = { F = 50 }
-[[plot]]
-file = "fig.png"
-x = "F"
-y = "theta_1"
-"""
 
 
 @pytest.fixture(scope="module")

@@ -204,3 +204,14 @@ def test_the_cycles_of_a_nerve_lead_from_one_hopf_point_to_the_other_over_three_
     assert dict(cycles.ends)["rest"] == "the orbit shrinks to a Hopf point (HB)"
     assert cycles["I"].max() == pytest.approx(second["I"], rel=1e-3)
     assert [p["I"] for p in cycles.of_kind("LPC")] == pytest.approx([7.846, 7.922, 6.265], abs=1e-3)
+
+
+def test_a_function_may_fill_one_array_again_and_again():
+    kept = np.zeros(2)
+
+    def f(u, p):
+        kept[:] = u[1], p["mu"] * (1.0 - u[0] ** 2) * u[1] - u[0]
+        return kept
+
+    orbit = mc.find_cycle(mc.VectorField(f, [2.0, 0.0], {"mu": 1.0}))
+    assert orbit.period == pytest.approx(6.66328685932313, rel=PERIOD)
