@@ -10,6 +10,7 @@ import numpy as np
 
 from mjcont.curves.collect import Progress
 from mjcont.errors import ParameterError, StartError, unknown_name
+from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings, make_settings
@@ -33,7 +34,7 @@ from mjcont.vectorfield import VectorField
 _CORRECTED = 1e-8
 _INTERVALS = 20
 # a parameter that moves by less along the tangent turns there
-_TURNS = 1e-3
+_TURNS, _AT_FOLD = 1e-3, 1e-6
 _OWN = ("mesh", "degree", "scheme", "tol", "period_max", "mesh_max")
 Stop = Callable[[OrbitPoint], str | None]
 
@@ -189,7 +190,10 @@ def along_parameter(system: System, x: Array, y: Array, direction: float) -> Arr
     """
     tangent = tangent_at(system, system.local(x, y), y)
     if abs(tangent[system.n]) <= _TURNS:
-        return tangent if tangent[system.n] * direction >= 0.0 else -tangent
+        rises = float(tangent[system.n])
+        if abs(rises) <= _AT_FOLD:  # it does neither: rounding must not say which way is first
+            return oriented(tangent) * direction
+        return tangent if rises * direction >= 0.0 else -tangent
     row = np.zeros_like(tangent)
     row[system.n] = direction
     return row
