@@ -20,7 +20,7 @@ STAMP_TEXT = printf '%s\n' "$(CURDIR)" "$(PYTHON)"
 FRESH := $(shell $(BIN)/python -c 'import pip' 2>/dev/null && $(STAMP_TEXT) | cmp -s - $(STAMP) && echo yes)
 
 .DEFAULT_GOAL := help
-.PHONY: help env reproduce reproduce-fast test test-long test-fuzz test-shaken test-shaken-fast test-kernels \
+.PHONY: help env reproduce reproduce-fast test test-slow test-long test-fuzz test-shaken test-shaken-fast test-kernels \
 	test-faults thirdparty test-thirdparty bench clean FORCE
 
 help: ## list these targets
@@ -39,6 +39,9 @@ test: env ## lint, rooms, types and tests
 	$(BIN)/lint-imports
 	$(BIN)/mypy
 	$(BIN)/pytest -q -n auto --dist loadfile --no-loadscope-reorder
+
+test-slow: env ## the tests that take seconds
+	$(BIN)/pytest -q -n auto --dist loadfile --no-loadscope-reorder -m "slow and not long and not shaken and not thirdparty"
 
 test-long: env ## the tests that take minutes
 	$(BIN)/pytest -q -n auto -m "long and not thirdparty"

@@ -1,4 +1,4 @@
-"""The quick suite under every BLAS kernel that the processor can run, and with NumPy's own dispatch reduced.
+"""The tests under every BLAS kernel that the processor can run, and with NumPy's own dispatch reduced.
 
 NumPy and SciPy carry an OpenBLAS each, which chooses its kernel by the processor, or by OPENBLAS_CORETYPE. Each suite
 runs in a child process with that set. Where the machine sets it already, kernels are left alone.
@@ -23,7 +23,8 @@ ARM = ("ARMV8", "CortexA57", "NeoverseN1", "NeoverseN2", "NeoverseV1", "VORTEX")
 _ROOT = Path(__file__).resolve().parent.parent
 _NAMES = [f"{prefix}openblas_get_corename{suffix}" for prefix in ("scipy_", "") for suffix in ("64_", "")]
 _PROBE = "--probe"
-_SHARED = ("-n", "auto", "--dist", "loadfile", "--no-loadscope-reorder")
+_EVERY = "not long and not fuzz and not thirdparty and not shaken"
+_SHARED = ("-n", "auto", "--dist", "loadfile", "--no-loadscope-reorder", "-m", _EVERY)
 
 
 @dataclass(frozen=True)
@@ -123,7 +124,7 @@ def table(results: Sequence[tuple[Case, bool, str]]) -> str:
 
 
 def suite(case: Case, arguments: Sequence[str]) -> tuple[Case, bool, str]:
-    """Run the quick suite in a child process, its output shown as it comes, and return how it went."""
+    """Run the tests in a child process, its output shown as it comes, and return how it went."""
     command = [sys.executable, "-m", "pytest", "-q", *(arguments or _SHARED)]
     said = ""
     with subprocess.Popen(

@@ -188,6 +188,7 @@ def test_a_checked_function_keeps_its_signature_and_takes_numbers_of_numpy() -> 
         verb(1, 1.0, [1])
 
 
+@pytest.mark.slow
 def test_a_curve_from_a_branch_point_of_its_own_says_what_follows_the_others() -> None:
     pitchfork = mc.VectorField(lambda u, p: [p["a"] * u[0] - u[0] ** 3], [0.0], {"a": -1.0})
     point = mc.continue_equilibria(pitchfork, "a", (-1.0, 1.0)).point("BP1")

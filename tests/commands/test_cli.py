@@ -59,6 +59,7 @@ def test_run_is_silent_when_told_so(here: Path, capsys: pytest.CaptureFixture[st
     assert (here / "out" / "equilibria.h5").is_file()
 
 
+@pytest.mark.slow
 def test_plot_goes_beside_its_input_unless_told_otherwise(here: Path, stored: Path) -> None:
     own = here / "copy.h5"
     own.write_bytes(stored.read_bytes())

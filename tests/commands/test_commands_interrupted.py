@@ -39,6 +39,7 @@ def test_an_interrupt_elsewhere_is_one_line(
     assert capsys.readouterr().err == "mjcont: interrupted\n"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for one process")
 def test_ctrl_c_stores_the_points_so_far(tmp_path: Path) -> None:
     (tmp_path / "slow.toml").write_text(SLOW)
@@ -59,6 +60,7 @@ def test_ctrl_c_stores_the_points_so_far(tmp_path: Path) -> None:
     assert len(branch) > 1
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="Windows reports a closed pipe in other ways")
 def test_a_closed_pipe_ends_the_output_and_not_the_run(tmp_path: Path) -> None:
     (tmp_path / "study.toml").write_text(STUDY)

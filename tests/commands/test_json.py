@@ -48,6 +48,7 @@ def test_a_result_tells_its_points_in_radians(printed: Any, stored: Path) -> Non
     assert sum(facts["stability"].values()) == facts["rows"] == len(branch)
 
 
+@pytest.mark.slow
 def test_a_run_tells_results_with_their_files_and_nothing_else(printed: Any, here: Path) -> None:
     (here / "study.toml").write_text(STUDY + '[[searches]]\nname = "found"\nstarts = 20\n')
     facts = printed("run", "study.toml", "-o", "out")

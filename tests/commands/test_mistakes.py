@@ -105,6 +105,7 @@ def test_a_plot_or_table_that_cannot_be_written_leaves_nothing(fails: Fails, her
     assert not list(here.iterdir())
 
 
+@pytest.mark.slow
 def test_a_result_that_is_missing_or_not_hdf5_says_so(fails: Fails, here: Path, stored: Path) -> None:
     (here / "text.h5").write_text("hello")
     (here / "cut.h5").write_bytes(stored.read_bytes()[:5000])

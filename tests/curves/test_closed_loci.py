@@ -33,6 +33,7 @@ def hopf_points(form, q, state, start):
     return mc.continue_equilibria(field, "p", BOUNDS, point).of_kind("HB")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("q", [long(0.05), long(-0.7), 0.93])
 def test_a_closed_hopf_curve_has_its_six_bautin_points_from_every_start(q):
     for point in hopf_points(spiral, q, [0.0, 0.0], 0.1):
@@ -42,6 +43,7 @@ def test_a_closed_hopf_curve_has_its_six_bautin_points_from_every_start(q):
         assert angles(locus, "GH") == pytest.approx([0.0, 60.0, 120.0, 180.0, 240.0, 300.0], abs=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("q", "first"), [long(0.05, 0.0), (0.62, 0.0), long(-0.8, 270.0)])
 def test_a_hopf_curve_ends_at_the_double_zeros_on_both_sides_of_every_start(q, first):
     s = 4.0 * 0.4**3 * q - 1.6 * q**3

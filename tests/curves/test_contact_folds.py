@@ -53,6 +53,7 @@ def extrema(exponent):
     return drive(high.x), drive(low.x)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [3.0, 5.5, *map(long, (4.0, 6.0, 6.5, 7.0, 8.0))])
 def test_both_folds_are_found_at_any_stiffness_of_the_contact(exponent):
     branch = mc.continue_equilibria(mc.Mechanism.from_xml(model(exponent)), "M", bounds=(-60, 60))
@@ -64,6 +65,7 @@ def test_both_folds_are_found_at_any_stiffness_of_the_contact(exponent):
     assert branch.residuals.max() < 1e-12
 
 
+@pytest.mark.slow
 def test_folds_tend_to_those_of_a_rigid_incline():
     # on a rigid incline M'(x) = 0 is one equation in x; the yield of the contact moves M by the order of 1 / k
     soft, stiff = (np.array(extrema(e)) for e in (5.0, 7.0))
@@ -72,6 +74,7 @@ def test_folds_tend_to_those_of_a_rigid_incline():
     np.testing.assert_allclose([p["M"] for p in branch.special_points], rigid, atol=2e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("exponent", [long(4.0), 6.0])
 def test_a_fold_under_contact_can_be_followed(exponent):
     branch = mc.continue_equilibria(mc.Mechanism.from_xml(model(exponent)), "M", bounds=(-60, 60))

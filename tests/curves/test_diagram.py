@@ -109,6 +109,7 @@ def test_three_curves_that_all_cross_each_other_are_found_once_each():
     assert np.array(sorted(found)) == pytest.approx(np.array(expected), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_secondary_branches_are_followed_from_branches_that_were_switched_to():
     diagram = diagram_of(two_modes, 0.0, 4.5)
     found = {coordinates(p) for p in diagram.special_points if p.kind == "BP"}
@@ -117,6 +118,7 @@ def test_secondary_branches_are_followed_from_branches_that_were_switched_to():
     assert len(diagram) == 5
 
 
+@pytest.mark.slow
 def test_the_mixed_branches_of_two_modes_follow_their_closed_form():
     mixed = [b for b in diagram_of(two_modes, 0.0, 4.5) if np.ptp(b["x"]) > 0.1 and np.ptp(b["y"]) > 0.1]
     assert len(mixed) == 2
@@ -176,6 +178,7 @@ def test_the_same_diagram_is_the_same_to_the_bit():
         assert np.array_equal(a["mu"], b["mu"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ds_max", [0.1, 0.02])
 def test_the_branches_of_a_diagram_do_not_depend_on_the_step(ds_max):
     diagram = mc.bifurcation_diagram(two_modes(), "mu", bounds=(0.0, 4.5), ds_max=ds_max)

@@ -198,6 +198,7 @@ def test_a_mechanism_s_branch_that_was_saved_and_loaded_is_extended(tmp_path, ov
     assert_same_points(mc.extend(loaded), overcentre_branch())
 
 
+@pytest.mark.slow
 def test_a_locus_that_was_saved_and_loaded_is_extended(tmp_path):
     loaded = mc.load(folds_of_ab(max_points=6).save(tmp_path / "folds.h5"), problem=ab(18.0))
     assert_same_points(mc.extend(loaded), folds_of_ab())
@@ -212,6 +213,7 @@ def test_a_fold_curve_that_was_cut_short_is_extended_to_the_whole():
     assert_same_points(mc.extend(short), folds_of_ab())
 
 
+@pytest.mark.slow
 def test_a_fold_curve_is_extended_into_wider_bounds():
     short = mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", bounds=(17.0, 20.0))
     assert short.special_points == ()
@@ -233,6 +235,7 @@ def test_a_hopf_curve_that_was_cut_short_is_extended_to_the_whole_and_no_further
     assert locus["u"].min() == pytest.approx(0.25, abs=1e-8)
 
 
+@pytest.mark.slow
 def test_a_hopf_curve_that_ended_at_its_bogdanov_takens_point_stays_as_it_is():
     whole = mc.continue_special(branch_of_ab(18.0).point("HB2"), "B", bounds=(8.0, 24.0))
     locus = mc.extend(whole, max_points=10)
@@ -300,6 +303,7 @@ def test_an_unknown_option_of_an_extension_is_named_with_those_that_exist():
         mc.extend(beginning_of_ab(), dsmax=0.1)
 
 
+@pytest.mark.slow
 def test_a_cusp_s_branch_keeps_the_options_it_was_made_with():
     short = mc.continue_equilibria(cusp(), "mu", bounds=(-1.0, 1.0), max_points=5, ds_max=0.01, direction=1)
     branch = mc.extend(short)

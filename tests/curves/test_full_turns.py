@@ -51,6 +51,7 @@ def test_each_pose_is_found_once_also_where_even_angles_are_poses(x, beside):
     np.testing.assert_allclose(np.exp(1j * angles).sum(), np.exp(1j * rests(x)).sum(), atol=1e-3)
 
 
+@pytest.mark.slow
 def test_a_locus_that_comes_back_a_full_turn_later_is_closed():
     branch = mc.continue_equilibria(wheel(), Y, bounds=(-1.2, 1.2), start={X: 1.5, Y: 0.0}, state=[np.pi / 2])
     locus = mc.continue_special(branch.of_kind("LP")[0], X, bounds={X: (0.8, 2.5), Y: (-1.6, 1.6)}, max_points=400)

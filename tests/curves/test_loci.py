@@ -68,6 +68,7 @@ def test_points_of_a_fold_curve_say_how_well_they_are_located():
 # -- Hopf points of ab in (D, B) ------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_hopf_curve_of_ab_has_one_bogdanov_takens_and_one_generalised_hopf_point_and_nothing_else():
     assert sorted(kinds(hopfs_of_ab())) == ["BT", "GH"]
 
@@ -78,6 +79,7 @@ def test_the_bogdanov_takens_point_on_the_hopf_curve_is_that_on_the_fold_curve()
     assert found == pytest.approx([0.25, 64.0 / 3.0, math.exp(-4.0 / 3.0) / 3.0], rel=1e-8)
 
 
+@pytest.mark.slow
 def test_the_generalised_hopf_point_of_ab_is_the_known_one():
     point = only(hopfs_of_ab(), "GH")
     found = [point["u"], point["B"], point["D"]]
@@ -95,6 +97,7 @@ def test_the_hopf_curve_of_ab_ends_at_its_bogdanov_takens_point():
     assert only(locus, "BT").index in (0, len(locus) - 1)
 
 
+@pytest.mark.slow
 def test_the_hopf_curve_of_ab_goes_on_into_neutral_saddles_when_asked():
     locus = hopfs_of_ab(end_at=())
     assert [word for word, _ in locus.ends] == ["at bound", "at bound"]
@@ -130,6 +133,7 @@ def test_no_generalised_hopf_point_is_sought_when_l1_is_not_wanted():
     assert kinds(hopfs_of_ab(lyapunov=False)) == ["BT"]
 
 
+@pytest.mark.slow
 def test_the_hopf_curve_of_the_brusselator_is_1_plus_A_squared():
     locus = mc.continue_special(branch_of_brusselator().point("HB1"), "A", bounds=(0.2, 3.0))
     assert locus["B"] == pytest.approx(1.0 + locus["A"] ** 2, abs=1e-8)

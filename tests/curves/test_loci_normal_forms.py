@@ -26,6 +26,7 @@ def test_a_fold_curve_has_one_zero_hopf_point_and_nothing_else(form):
     assert point.coefficients["omega"] == pytest.approx(OMEGA, rel=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", [FORMS[0], *(pytest.param(f, marks=pytest.mark.long) for f in FORMS[1:])])
 def test_the_pole_of_l1_at_a_zero_hopf_point_is_no_generalised_hopf_point(form):
     locus = mc.continue_special(only(zero_hopf_branch(*form), "HB"), "b2", bounds=(-0.6, 0.6))

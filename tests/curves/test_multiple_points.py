@@ -46,6 +46,7 @@ def ends(branches, rotation, size, own):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("n", "size", "seed"), [(2, 1.0, None), long(5, 1.0, 1), long(4, 1e-3, 2), (4, 1e3, 3)])
 def test_two_pitchforks_in_one_place_have_five_branches(n, size, seed):
     problem, rotation = field(two_pitchforks, n, size, seed)
@@ -79,6 +80,7 @@ MAST = """
 <inertial pos="0 0 1" mass="1" diaginertia=".1 .1 .1"/></body></worldbody></mujoco>"""
 
 
+@pytest.mark.slow
 def test_a_mast_buckles_in_both_directions_and_between_them():
     """On a joint of two equal springs: load a / sin a about one axis, 2 a / sin 2 a where both angles are equal."""
     mast = mc.Mechanism.from_xml(MAST)

@@ -134,6 +134,7 @@ def test_every_point_balances_the_hand_written_forces(overcentre_branch, k_j):
         assert np.abs(reference.forces(q, {**PARAMETERS, "k_j": k_j, "F": force})).max() < 1e-12 * k_j + 1e-11
 
 
+@pytest.mark.slow
 def test_stiff_bushes_follow_equation_5_along_the_whole_branch(overcentre_branch):
     branch = overcentre_branch(k_j=1e8)
     assert np.abs(branch["F"] - reference.rigid_force(branch["theta_1"])).max() < 1e-3
@@ -145,6 +146,7 @@ def test_the_branch_ends_at_its_bounds_with_the_lower_one_first(overcentre_branc
     assert branch.status == "at bound"
 
 
+@pytest.mark.slow
 def test_the_same_run_gives_the_same_numbers_to_the_bit(overcentre_branch):
     once = overcentre_branch()
     again = mc.continue_equilibria(

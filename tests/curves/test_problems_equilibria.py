@@ -355,6 +355,7 @@ def no_large_dense_algebra(monkeypatch):
             monkeypatch.setattr(owner, name, small_only(name, getattr(owner, name)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", BRATU_FOLDS)
 def test_bratu_has_one_fold_where_its_differences_have_it(n):
     branch = branch_of_bratu(n)
@@ -363,6 +364,7 @@ def test_bratu_has_one_fold_where_its_differences_have_it(n):
     assert la == pytest.approx(BRATU_FOLDS[n], rel=1e-10)
 
 
+@pytest.mark.slow
 def test_bratu_with_1000_points_lies_near_its_limit():
     (fold,) = branch_of_bratu(1000).special_points
     assert fold["la"] == pytest.approx(3.51383071912516, rel=1e-6)
@@ -377,6 +379,7 @@ def test_bratu_is_stable_up_to_the_fold_and_has_one_unstable_mode_beyond(n):
     assert set(branch.n_unstable[fold.index + 1 :]) == {1}
 
 
+@pytest.mark.slow
 def test_following_a_sparse_problem_of_1000_unknowns_over_its_fold_needs_no_dense_algebra(no_large_dense_algebra):
     branch = branch_of_bratu.__wrapped__(1000)
     assert [p.kind for p in branch.special_points] == ["LP"]

@@ -32,6 +32,7 @@ def distances(points, polyline):
     return np.array(found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("chord", [long(1e-4), 3e-6])
 @pytest.mark.parametrize(
     ("model", "k_j"), [("overcentre", 1e3), ("overcentre", 1e6), ("nose_gear", 1e3), ("nose_gear_full", 1e3)]
@@ -41,6 +42,7 @@ def test_chords_stay_as_close_to_the_curve_as_asked(model, k_j, chord):
     assert distances(fine, scaled(branch_of(model, chord, k_j))).max() < 1.1 * chord
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ["overcentre", "nose_gear", "nose_gear_full"])
 def test_points_and_special_points_are_rows_whatever_lies_between(model):
     plain, fine = branch_of(model, math.inf), branch_of(model)

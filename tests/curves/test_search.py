@@ -162,6 +162,7 @@ def test_a_region_of_an_angle_chooses_the_turn(pendulum_xml):
     assert np.allclose(found.column("hip"), [2 * _TURN])
 
 
+@pytest.mark.slow
 def test_a_free_body_on_bushes_rests_upright_and_in_three_half_turns():
     spots = {"a": "1 0 0", "b": "0 1 0", "c": "0 0 0.5"}
     bush = 'gaintype="fixed" gainprm="0" biastype="affine" biasprm="0 -1000 -100"'

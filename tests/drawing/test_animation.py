@@ -51,12 +51,14 @@ def _red(frame):
     return cols.mean(), rows.mean()
 
 
+@pytest.mark.slow
 def test_a_history_of_three_seconds_has_thirty_frames_in_real_time(history, tmp_path):
     frames, durations = _read(mc.animate(history, tmp_path / "a.gif", **SMALL))
     assert len(frames) == 30 and frames[0].shape == (120, 240, 3)
     assert sum(durations) == 3000
 
 
+@pytest.mark.slow
 def test_durations_that_are_no_hundredths_of_a_second_add_up(history, tmp_path):
     _, durations = _read(mc.animate(history, tmp_path / "a.gif", seconds=1.0, fps=30.0, size=(240, 120)))
     assert set(durations) == {30, 40} and sum(durations) == 1000
@@ -181,6 +183,7 @@ def test_an_mp4_is_written_by_ffmpeg(history, tmp_path):
     assert out.read_bytes()[4:8] == b"ftyp"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("backend", "expected"), [("disable", "set MUJOCO_GL=egl"), ("egl", "a.gif")])
 def test_mujoco_renders_where_there_is_opengl_and_says_so_where_not(history, tmp_path, backend, expected):
     file = history.save(tmp_path / "h.h5")

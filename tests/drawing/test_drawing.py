@@ -366,6 +366,7 @@ def test_a_point_without_a_mechanism_has_no_pose():
 # -- surroundings --------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_picture_is_the_same_every_time(tmp_path, overcentre_branch):
     branch = overcentre_branch()
     written = []
@@ -378,6 +379,7 @@ def test_a_picture_is_the_same_every_time(tmp_path, overcentre_branch):
     assert written[:2] == written[2:]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have a display without any variable set")
 def test_neither_opengl_nor_a_display_nor_pyplot_is_needed(tmp_path):
     missing = ("DISPLAY", "WAYLAND_DISPLAY", "MUJOCO_GL", "MPLBACKEND")

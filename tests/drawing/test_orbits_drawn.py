@@ -51,6 +51,7 @@ def test_an_orbit_draws_itself_whatever_it_is_called_through():
     assert mc.plot(flutter()[-1].orbit, x="q2").get_xlabel() == "q2 [deg]"
 
 
+@pytest.mark.slow
 def test_a_frequency_response_is_one_line_with_units():
     ax = mc.plot(resonance(), x="w", y="x.amplitude")
     (line,) = lines(ax)

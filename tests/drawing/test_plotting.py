@@ -194,6 +194,7 @@ def test_an_axis_in_another_unit_has_round_numbers_and_says_so():
     assert {t.get_text() for t in ax.get_yticklabels()} >= {"0", "20", "40"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
 def test_a_figure_is_written_with_the_same_bytes_every_time(cusp, tmp_path, suffix):
     files = [save_figure(plot(cusp, x="mu", y="x").figure, tmp_path / f"{i}.{suffix}") for i in range(2)]
@@ -206,6 +207,7 @@ def test_an_unknown_suffix_is_an_error_that_lists_the_formats(cusp, tmp_path):
         save_figure(new_figure()[0], tmp_path / "a.bmp")
 
 
+@pytest.mark.slow
 def test_plotting_needs_neither_pyplot_nor_matplotlib_until_it_draws():
     code = (
         "import sys, mjcont, mjcont.drawing.plotting as p; assert 'matplotlib' not in sys.modules\n"

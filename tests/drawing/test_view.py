@@ -46,6 +46,7 @@ def test_view_opens_the_pose_that_is_asked_for(stored: Path, monkeypatch: pytest
     assert seen[-1][0].actuator("bush_A_x").biasprm[1] == -2e5
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have a display without any variable set")
 def test_without_a_display_view_says_so_in_one_line() -> None:
     view = without_display("view", "overcentre")
@@ -54,6 +55,7 @@ def test_without_a_display_view_says_so_in_one_line() -> None:
     assert view.stderr.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_a_study_needs_no_display(tmp_path: Path) -> None:
     (tmp_path / "study.toml").write_text(STUDY)
     run = without_display("run", tmp_path / "study.toml", "-o", tmp_path, "-q")

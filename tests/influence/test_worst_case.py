@@ -67,6 +67,7 @@ def test_a_followed_point_has_its_coefficient_and_label():
     assert found.tolerance < 1e-10
 
 
+@pytest.mark.slow
 def test_a_fold_never_jumps_to_the_one_beside_it():
     for label in ("LP1", "LP2", "LP3", "LP4"):
         fold = wave_fold(label)
@@ -85,6 +86,7 @@ def test_folds_that_meet_cease_to_exist_where_they_do_with_a_sentence():
     assert found.path[-1]["p"] == pytest.approx(1.0, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_cusps_that_annihilate_cease_to_exist_where_they_do():
     found = mc.follow_point(swallowtail(), {"p": -0.5})
     assert found.status == "ceased"
@@ -201,6 +203,7 @@ def test_where_the_point_ceases_inside_the_box_the_extreme_lies_at_the_edge_of_i
     assert found.value == pytest.approx(math.pi, rel=1e-2)
 
 
+@pytest.mark.slow
 def test_a_box_in_which_the_point_does_not_exist_is_a_status():
     found = mc.worst_case(swallowtail(), {"p": (-1.0, -0.5)})
     assert found.status == "not converged"
@@ -243,6 +246,7 @@ def gear_cusp():
     return mc.continue_special(branch.point("LP1"), "F_ul", bounds=(-1000.0, 0.0)).point("CP1")
 
 
+@pytest.mark.slow
 def test_the_gears_cusp_followed_is_the_one_found_from_scratch_at_another_load_case():
     load = {"load_factor": 2.5, "gravity_angle": math.radians(-20.0)}
     gear = gear_cusp().problem
@@ -253,6 +257,7 @@ def test_the_gears_cusp_followed_is_the_one_found_from_scratch_at_another_load_c
     assert [found["F_ret"], found["F_ul"]] == pytest.approx([fresh["F_ret"], fresh["F_ul"]], rel=1e-8)
 
 
+@pytest.mark.slow
 def test_the_gears_largest_unlock_force_is_at_the_steepest_descent_and_the_largest_load():
     box = {"gravity_angle": (-REACH, REACH), "load_factor": (0.5, 2.5)}
     middle = {n: sum(r) / 2.0 for n, r in box.items()}

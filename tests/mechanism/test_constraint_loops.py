@@ -57,6 +57,7 @@ def folds(name, closure, stiffness):
     return np.array(sorted((p["crank"] - start, p["M"]) for p in branch.of_kind("LP")))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", [1e4, *(pytest.param(k, marks=LONG) for k in (1e5, 1e6, 1e7))])
 @pytest.mark.parametrize("closure", ["native", "bush"])
 @pytest.mark.parametrize("name", QUICK_FIRST)
@@ -64,6 +65,7 @@ def test_folds_are_those_of_the_equations_written_by_hand(name, closure, stiffne
     np.testing.assert_allclose(folds(name, closure, stiffness), by_hand(name, stiffness), rtol=1e-7, atol=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK_FIRST)
 def test_folds_with_native_constraints_approach_the_rigid_linkage_at_rate_1_over_k(name):
     errors = np.array([folds(name, "native", k) - rigid(name) for k in STIFFNESSES])
@@ -73,6 +75,7 @@ def test_folds_with_native_constraints_approach_the_rigid_linkage_at_rate_1_over
     assert np.all(change < [[0.1], [1e-2], [1e-3]])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("closure", ["native", pytest.param("bush", marks=LONG)])
 @pytest.mark.parametrize("stiffness", [1e4, pytest.param(1e6, marks=LONG)])
 @pytest.mark.parametrize("name", QUICK_FIRST)
@@ -92,6 +95,7 @@ def test_the_verdicts_on_stability_are_those_of_the_energy(name, closure, stiffn
 # -- stiffness studies -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK_FIRST)
 def test_a_stiffness_study_of_native_constraints_has_the_rigid_linkage_as_its_limit(name):
     branch, start = branch_of(name, "native", 1e6)
@@ -154,6 +158,7 @@ def check_folds(text, linkage_of, stiffnesses, turns):
     return len(closed)
 
 
+@pytest.mark.slow
 def test_pendulums_geared_by_a_joint_equality():
     # the second pendulum turns by 0.8 t + 0.3 t^2 where the crank turns by t
     def gap(q):

@@ -123,6 +123,7 @@ def test_a_free_truss_snaps_at_the_load_of_the_closed_form():
     assert [p["P"] for p in branch.of_kind("LP")] == pytest.approx([snap, -snap], rel=1e-10)
 
 
+@pytest.mark.slow
 def test_where_a_free_mechanism_starts_in_space_makes_no_difference():
     mechanism = mc.Mechanism.from_xml(truss(FREE))
     quat = np.array([0.5, -0.1, 0.7, 0.5])
@@ -133,6 +134,7 @@ def test_where_a_free_mechanism_starts_in_space_makes_no_difference():
     assert [p["P"] for p in there.of_kind("LP")] == pytest.approx([p["P"] for p in here.of_kind("LP")], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_stability_of_a_free_mechanism_changes_at_its_folds_and_nowhere_else():
     branch = mc.continue_equilibria(mc.Mechanism.from_xml(hexapod(FREE)), "P", bounds=(-20.0, 20.0))
     for i in range(1, len(branch)):
@@ -143,6 +145,7 @@ def test_the_stability_of_a_free_mechanism_changes_at_its_folds_and_nowhere_else
         assert (before - p["P"]) * (after - p["P"]) > 0
 
 
+@pytest.mark.slow
 def test_a_fold_of_a_free_mechanism_can_be_followed_from_a_file(tmp_path):
     branch = mc.continue_equilibria(mc.Mechanism.from_xml(truss(FREE)), "P", bounds=(-300.0, 300.0))
     again = mc.load(branch.save(tmp_path / "truss.h5"))

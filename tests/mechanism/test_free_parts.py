@@ -63,6 +63,7 @@ def test_a_motor_that_turns_a_free_wheel_is_refused_by_the_wheels_name():
         mc.continue_equilibria(mechanism, "T", bounds=(-1, 1))
 
 
+@pytest.mark.slow
 def test_a_rod_between_two_balls_spins_about_its_own_axis():
     rod = f"""<body name="rod" pos="0 0 1"><joint type="ball" damping=".1"/>
       <geom type="capsule" size=".02" fromto="0 0 0 .3 .4 0" mass="1" {APART}/></body>"""
@@ -78,6 +79,7 @@ def test_a_rod_between_two_balls_spins_about_its_own_axis():
     assert set(branch.stability) == {"stable"}
 
 
+@pytest.mark.slow
 def test_a_rod_between_ball_joints_of_a_chain_spins_too():
     chain = f"""<body name="rod" pos="0 0 1"><joint type="ball" damping=".1"/>
       <geom type="capsule" size=".02" fromto="0 0 0 0 0 -.5" mass="1" {APART}/>

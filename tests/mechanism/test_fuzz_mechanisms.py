@@ -93,6 +93,7 @@ def go(seeds):
     assert known >= 0.5 * asked
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_random_mechanism_is_told_as_mujoco_moves_it(kind):
     go([KINDS.index(kind), len(KINDS) + KINDS.index(kind)])

@@ -106,6 +106,7 @@ def test_factor_offset_and_pattern_are_those_of_field_paths():
     assert found == pytest.approx(inertia(0.5), rel=1e-13)
 
 
+@pytest.mark.slow
 def test_results_are_the_same_to_the_bit_whatever_was_evaluated_before():
     cases = [{}, {"length": 0.5}, {"length": 0.2, "k": 3.0}, {"k": 3.0}, {"m": 2.0}, {"m": 2.0, "length": 0.45}]
 
@@ -156,6 +157,7 @@ def test_a_model_that_rests_on_a_stop_is_recompiled_as_well():
         assert through_spec.residual(np.array([theta]), values) == pytest.approx(expected, rel=1e-10)
 
 
+@pytest.mark.slow
 def test_a_floating_body_computed_before_keeps_its_branch_when_a_geometry_is_declared():
     text = """<mujoco><option gravity="0 0 0"/><worldbody><body name="hull"><freejoint/><geom name="hull" size="0.1"/>
       <body name="arm"><joint name="j" axis="0 1 0" stiffness="1"/>
@@ -185,12 +187,14 @@ def test_the_pitchfork_load_of_an_upright_rod_is_that_of_its_length(make):
     assert branch.point("BP1")["load_factor"] == pytest.approx(STIFFNESS / weight_moment(0.4), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_pitchfork_length_of_an_upright_rod_is_where_its_spring_gives_way():
     branch = mc.continue_equilibria(rod(rest=0.0), "length", bounds=(0.1, 0.6), start={"length": 0.1})
     critical = math.sqrt(2.0 * STIFFNESS / (DENSITY * math.pi * RADIUS**2 * GRAVITY))
     assert branch.point("BP1")["length"] == pytest.approx(critical, rel=1e-9)
 
 
+@pytest.mark.slow
 @BOTH
 def test_a_fold_followed_in_load_and_length_keeps_load_times_length_squared(make):
     mechanism = make()
@@ -206,6 +210,7 @@ def test_a_fold_followed_in_load_and_length_keeps_load_times_length_squared(make
     assert locus["hip"] == pytest.approx(fold_angle(), abs=1e-7)
 
 
+@pytest.mark.slow
 def test_eigenvalues_are_those_of_the_recompiled_inertia():
     branch = mc.continue_equilibria(rod(), "length", bounds=(0.1, 0.6), start={"length": 0.1})
     for i in range(0, len(branch), 7):
@@ -239,6 +244,7 @@ def test_a_branch_in_a_length_of_the_overcentre_agrees_with_the_field_of_its_sit
         assert one.stability == other.stability
 
 
+@pytest.mark.slow
 def test_a_branch_that_meets_the_edge_of_what_compiles_ends_there_with_a_sentence():
     mechanism = rod("")
     mechanism.declare("radius", "spec:geom:rod.size[0]", unit="m")
@@ -271,6 +277,7 @@ def test_a_start_at_the_very_edge_is_an_error_that_says_why():
         mc.continue_equilibria(mechanism, "width")
 
 
+@pytest.mark.slow
 def test_a_function_is_not_asked_for_values_beyond_the_bounds():
     asked = []
 
@@ -288,6 +295,7 @@ def test_a_function_is_not_asked_for_values_beyond_the_bounds():
     assert max(asked) <= 1.0
 
 
+@pytest.mark.slow
 def test_a_branch_that_meets_the_edge_of_a_function_ends_there_with_a_sentence():
     def taper(spec, value):
         spec.geom("rod").size[0] = RADIUS * math.sqrt(1.0 - value)

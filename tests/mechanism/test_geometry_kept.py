@@ -53,6 +53,7 @@ def test_a_history_that_leaves_what_compiles_is_an_error_with_the_time():
         mc.simulate(mechanism, {"radius": lambda t: radius.value * (1.0 - t / 0.1)}, 1.0)
 
 
+@pytest.mark.slow
 def test_a_parameter_by_path_is_rebuilt_from_a_result_file(tmp_path):
     name = "spec:geom:rod.fromto[5]"
     branch = mc.continue_equilibria(rod(""), name, bounds=(0.1, 0.4))
@@ -62,6 +63,7 @@ def test_a_parameter_by_path_is_rebuilt_from_a_result_file(tmp_path):
     assert weight_moment(0.25) * math.sin(theta) == pytest.approx(STIFFNESS * (theta - REST), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_parameter_by_function_asks_for_the_mechanism_when_its_file_is_loaded(tmp_path):
     mechanism = with_function()
     path = mc.continue_equilibria(mechanism, "length", bounds=(0.1, 0.4)).save(tmp_path / "length.h5")

@@ -68,6 +68,7 @@ def assert_fold(fold, force, theta_ov, theta_1=None):
     assert theta_1 is None or degrees(fold, "theta_1") == pytest.approx(theta_1, abs=1e-4)
 
 
+@pytest.mark.slow
 @EACH
 def test_the_three_folds_around_uplock_equal_the_reference(folds, load):
     found = folds(*load)
@@ -82,6 +83,7 @@ def test_with_500_newton_fp1_and_the_minimum_beside_it_equal_the_reference(folds
     assert_fold(fp2, 413839.374, -11.20767)
 
 
+@pytest.mark.slow
 @EACH
 def test_the_cusp_of_the_first_folds_locus_equals_the_reference(folds, load):
     locus = mc.continue_special(folds(*load)[0], "F_ul", bounds=(-1000.0, 0.0))
@@ -105,6 +107,7 @@ def test_the_published_poses_have_their_pins_where_the_table_says(gear):
         assert m.e == pytest.approx(e, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_the_gear_is_locked_between_fp2_and_infinity(gear, folds):
     """Stable below overcentre from FP2 up, unstable between FP2 and FP3, stable again where the gear extends."""
     _, fp2, fp3 = folds(1.0, 0.0)

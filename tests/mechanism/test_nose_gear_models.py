@@ -266,6 +266,7 @@ FULL_FOLDS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("k_j", "keyframe", "start", "force", "theta_ov"), FULL_FOLDS)
 def test_folds_of_the_gear_with_every_pin_a_bush_equal_the_reference(full, k_j, keyframe, start, force, theta_ov):
     branch = mc.continue_equilibria(

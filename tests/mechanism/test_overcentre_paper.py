@@ -109,6 +109,7 @@ def test_the_table_of_folds_holds_for_the_hand_written_energies(k_j, label):
     assert math.degrees(angle) == pytest.approx(degrees, abs=0.6e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("which", "label"), [(0, "LP2"), (1, "LP1")])
 def test_folds_tend_to_those_of_the_closed_form_as_one_over_the_stiffness(branch, which, label):
     force, angle = reference.rigid_folds(PAPER)[which]
@@ -141,6 +142,7 @@ def test_one_eigenvalue_is_unstable_between_the_folds_and_there_is_nothing_else(
     assert set(found.stability[regular]) == {"stable", "unstable"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("points", [6, pytest.param(16, marks=pytest.mark.long)])
 def test_simulations_beside_the_branch_grow_and_decay_as_the_eigenvalues_say(branch, points):
     checked = mc.verify_stability(branch(), points).certificate
@@ -160,6 +162,7 @@ def closed_form():
     return np.column_stack([reference.rigid_force(theta, PAPER), theta]) / AXES
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("k_j", "other", "expected", "digit"),
     [(200.0, 1000.0, 0.0036, 1e-4), (100.0, None, 0.0076, 1e-4), (10.0, None, 0.043, 1e-3)],

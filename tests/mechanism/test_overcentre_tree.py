@@ -83,6 +83,7 @@ def folds(mechanism, k_j):
     return np.array([found[False], found[True]])
 
 
+@pytest.mark.slow
 def test_the_folds_of_both_models_approach_each_other_as_the_square_of_the_compliance(tree, free):
     # The heights of the two centres of gravity differ by O(1/k_j), the spring's energy by the square of that.
     differences = [np.abs(folds(tree, k) - folds(free, k)) for k in (1e3, 1e4, 1e5)]

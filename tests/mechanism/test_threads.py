@@ -110,6 +110,7 @@ def results(mechanism: mc.Mechanism) -> dict[str, Any]:
     }
 
 
+@pytest.mark.slow
 def test_results_of_every_kind_come_back_and_read_the_same() -> None:
     for name, result in results(mc.Mechanism.from_xml("overcentre")).items():
         again = pickle.loads(pickle.dumps(result))
@@ -118,6 +119,7 @@ def test_results_of_every_kind_come_back_and_read_the_same() -> None:
             assert again.problem.name == "overcentre"
 
 
+@pytest.mark.slow
 def test_any_executor_computes_with_mechanisms_and_results(overcentre, overcentre_branch) -> None:
     point = overcentre_branch().point("LP1")
     with ProcessPoolExecutor(1, get_context("spawn")) as pool:

@@ -73,6 +73,7 @@ def model_of(text):
 # -- folds -----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK_FIRST)
 def test_folds_equal_those_of_the_equations_written_by_hand(name):
     found = folds(name, 1e6)
@@ -98,6 +99,7 @@ def test_equal_stiffness_along_all_axes_makes_the_frame_indifferent():
     np.testing.assert_allclose(world, parent, rtol=0, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_an_elastic_ball_joint_keeps_the_rigid_limit():
     soft, stiff = (folds("rssr", k, joints=["ball_B"]) - rigid("rssr") for k in (1e5, 1e6))
     np.testing.assert_allclose(soft / stiff, 10.0, rtol=0.02)

@@ -116,6 +116,7 @@ def test_a_mass_down_to_almost_nothing_is_followed():
     np.testing.assert_allclose(2.0 * q, 0.3 * 9.81 * mass * np.cos(q), atol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_spec_that_compiles_to_such_a_number_ends_the_curve():
     mechanism = mc.Mechanism.from_xml(ROD)
 

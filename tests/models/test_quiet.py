@@ -167,6 +167,7 @@ def test_quiet_lasts_until_the_last_of_several_threads_leaves():
     thread.join()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["spawn", "fork"] if sys.platform == "linux" else ["spawn"])
 @pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")
 def test_a_worker_process_is_quiet(method: str) -> None:
@@ -176,6 +177,7 @@ def test_a_worker_process_is_quiet(method: str) -> None:
     assert process.exitcode == 0
 
 
+@pytest.mark.slow
 def test_mujoco_speaks_as_ever_where_mjcont_does_not_work(tmp_path: Path) -> None:
     code = (
         f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r}); import test_quiet as t; "

@@ -114,6 +114,7 @@ def test_inspect_lists_the_files_that_a_model_reads(tmp_path: Path, capsys) -> N
     assert [line.strip() for line in listed.split("\n")] == expected
 
 
+@pytest.mark.slow
 def test_a_folder_whose_name_is_no_utf8_holds_models_and_results(tmp_path: Path) -> None:
     folder = os.fsencode(tmp_path) + b"/\xff\xfe"
     try:

@@ -47,6 +47,7 @@ def assert_confirmed(branch, resolution):
             assert "marginal" in check.sentence or "corner" in check.sentence or "limit" in check.sentence
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["four_bar", "tethered_body", "toggle_clamp", "von_mises_truss"])
 def test_stable_points_decay_and_unstable_ones_grow_at_their_eigenvalues_rate(name):
     branch = mc.verify_stability(curve(name), 8)

@@ -201,6 +201,7 @@ def test_a_motion_that_runs_to_infinity_in_finite_time_ends_the_path_as_diverged
 # -- files, pictures, messages ----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_path_survives_its_file(cycle, tmp_path):
     loaded = mc.load(cycle.save(tmp_path / "path.h5"))
     assert str(loaded) == str(cycle)

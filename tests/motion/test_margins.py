@@ -66,6 +66,7 @@ def test_the_barrier_vanishes_with_the_power_three_halves_of_the_distance_to_the
     assert found[1] == pytest.approx(4.0 / 3.0 * math.sqrt(2.0 / abs(bend)) * distances[1] ** 1.5, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_the_barrier_falls_along_the_branch_to_zero_at_the_fold(truss):
     curve = mc.barrier_along(truss, search=False)
     on_top = curve.energy[[b.rest["z"] >= Z_SNAP - 1e-9 for b in curve.barriers]]
@@ -77,6 +78,7 @@ def test_the_barrier_falls_along_the_branch_to_zero_at_the_fold(truss):
     assert on_top[inside] == pytest.approx([closed_form(p) if p else energy(0.0, 0.0) for p in loads[inside]], rel=1e-6)
 
 
+@pytest.mark.slow
 def test_barriers_lie_some_way_apart_whatever_the_rows(truss):
     curve = mc.barrier_along(truss, search=False)
     stable = np.flatnonzero((truss.stability == "stable") | np.char.startswith(truss.labels, "LP"))
@@ -85,6 +87,7 @@ def test_barriers_lie_some_way_apart_whatever_the_rows(truss):
     assert curve.rows[[0, -1]].tolist() == stable[[0, -1]].tolist()
 
 
+@pytest.mark.slow
 def test_barriers_are_drawn_as_a_line_a_stable_piece_of_the_branch(truss):
     whole = mc.continue_equilibria(truss.problem, "P", bounds=(-300.0, 300.0))
     curve = mc.barrier_along(whole, search=False)

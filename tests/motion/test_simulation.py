@@ -89,6 +89,7 @@ def test_the_gears_motion_is_that_of_an_independent_integration():
     assert relative_error(implicit.states, expected) < 2e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("integrator", "order"), [("discrete", 1), ("implicitfast", 1), ("RK4", 4)])
 def test_the_error_falls_with_the_order_of_the_integrator(pushed, integrator, order):
     mechanism, rest, _ = pushed
@@ -200,6 +201,7 @@ def test_gravity_that_turns_with_time_in_a_batch_is_gravity_written_before_every
     np.testing.assert_allclose(batched.states, written.states, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_spring_that_stiffens_with_time_moves_the_mechanism_as_its_equilibria_move(overcentre):
     rest = mc.find_equilibrium(overcentre, {"F": 50.0})
     history = mc.simulate(overcentre, {"k_sp": lambda t: 10.0 + 0.1 * t}, 20.0, rest)
@@ -211,6 +213,7 @@ def test_a_spring_that_stiffens_with_time_moves_the_mechanism_as_its_equilibria_
 # -- many ------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_many_runs_at_once_are_the_runs_one_by_one(overcentre):
     rest = mc.find_equilibrium(overcentre, {"F": 50.0})
     cases = [

@@ -176,6 +176,7 @@ def test_the_powers_are_those_of_damping_and_of_inertia(overcentre):
     assert power == pytest.approx(2 / 3 if damped else 4 / 5, abs=0.005 if damped else 0.03)
 
 
+@pytest.mark.slow
 def test_one_percent_of_the_load_is_told_in_the_summary_and_kept_in_files(overcentre, tmp_path):
     _, path = overcentre
     jump = path.jumps[0]

@@ -23,6 +23,7 @@ def go(seeds):
     assert wrong == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", range(0, SHORT, 4))
 def test_random_fields_have_the_points_and_the_stability_that_they_are_known_to_have(first):
     go(range(first, first + 4))
@@ -34,6 +35,7 @@ def test_many_random_fields_have_the_points_and_the_stability_that_they_are_know
     go(range(first, first + BLOCK))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [84, 530, 531])
 def test_points_beside_each_other_are_told_apart_or_as_one_wherever_a_step_ends(seed):
     """Branch points 3e-5 apart; two in one place, and two Hopf points, where a step ends within rounding of them."""

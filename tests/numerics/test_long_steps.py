@@ -85,6 +85,7 @@ def test_eigenvalues_read_late_are_those_of_the_points():
 # -- nothing is missed -----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("force", [-411.7, *map(long, (-411.8, -411.806)), -411.8079])
 def test_two_folds_close_to_their_cusp_are_both_found(force):
     gear = mc.Mechanism.from_xml("nose_gear")
@@ -98,6 +99,7 @@ def test_two_folds_close_to_their_cusp_are_both_found(force):
     assert places[0] == pytest.approx(places[1], rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("start", "ds_max"), [(382736.1, 0.04172445), (427981.5, 0.02848422), (371706.8, 0.04431817), (4e5, 0.01)]
 )

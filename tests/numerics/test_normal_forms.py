@@ -60,6 +60,7 @@ def test_cusp_coefficient_is_that_of_the_normal_form_over_the_squared_length_of_
     assert only(locus, "CP").coefficients["c"] == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_cusp_coefficient_includes_what_the_slaved_direction_adds():
     # y relaxes to x^2, so that x y = x^3 on the centre manifold: c = -1 + 3/2
     def g(z, p):

@@ -53,6 +53,7 @@ def test_long_steps_are_taken_where_points_inside_are_cheap(cls, kind):
     assert type(equilibrium_walker(system, Settings(), {}).stepper) is kind
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("model", "parameter"), [("overcentre", "F"), ("four_bar", None)])
 def test_the_walk_without_long_steps_is_exactly_the_plain_one_and_the_filled_one_the_same_curve(model, parameter):
     plain, filled = (cls.from_xml(model) for cls in (OneAtATime, mc.Mechanism))

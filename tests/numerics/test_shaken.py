@@ -63,6 +63,7 @@ def test_a_signature_tells_a_lost_point_from_a_moved_one() -> None:
     assert differences(plain, plain) == []
 
 
+@pytest.mark.slow
 def test_a_start_comes_to_the_same_rest_under_noise() -> None:
     gear = mc.Mechanism.from_xml("nose_gear_locking")
     load = {"gravity_angle": np.radians(-20.0), "F_ul": -500.0, "F_ret": 2.5e5}

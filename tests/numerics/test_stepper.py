@@ -119,6 +119,7 @@ def test_labels_and_special_points_do_not_change_with_the_step(B, ds_max):
     assert [p["D"] for p in branch.special_points] == pytest.approx(expected, rel=1e-10)
 
 
+@pytest.mark.slow
 def test_a_larger_step_takes_fewer_points():
     sizes = [len(mc.continue_equilibria(ab(18.0), "D", bounds=(0.0, 0.6), ds_max=d)) for d in (0.1, 0.05, 0.02)]
     assert sizes == sorted(sizes)

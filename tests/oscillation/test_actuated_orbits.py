@@ -54,6 +54,7 @@ def turned(orbit):
     return np.exp(2j * math.pi * orbit.frequency * orbit.times)
 
 
+@pytest.mark.slow
 def test_a_force_through_a_filter_moves_a_mass_as_two_linear_systems_in_series_do():
     x = moved(response()["frequency"])
     assert response()["x.h1"] == pytest.approx(np.abs(x), rel=1e-7)
@@ -69,6 +70,7 @@ def test_activations_along_an_orbit_are_those_of_the_filter():
     assert orbit.velocities[:, 0] == pytest.approx((1j * w * moved(orbit.frequency) * turned(orbit)).real, abs=1e-7)
 
 
+@pytest.mark.slow
 def test_a_sensor_of_the_force_reads_the_activation_in_motion():
     assert response()["force.h1"] == pytest.approx(GAIN * np.abs(lagging(response()["frequency"])), rel=1e-8)
 
@@ -99,6 +101,7 @@ def rods(actuator):
     return mc.Mechanism.from_xml(text.replace(plain, plain.replace("/>", f" {actuator}/>")))
 
 
+@pytest.mark.slow
 def test_a_filter_before_a_constant_load_adds_a_multiplier_to_a_cycle_and_changes_nothing_else():
     flutter = mc.find_cycle(rods(f'dyntype="filter" dynprm="{LAG}"'), {"P": 1.822089}, state=[0.3, 0.2])
     assert flutter.period == pytest.approx(7.480310949944562, rel=1e-9)
@@ -118,6 +121,7 @@ def pulled(smooth):
                     'lengthrange="-1 1" force="3"/>')
 
 
+@pytest.mark.slow
 def test_a_response_of_a_muscle_is_where_its_motion_comes_back_to():
     curve = mc.continue_response(pulled(0.5), "frequency", (0.2, 0.3), {"F": mc.Harmonic(0.1)}, {"F": 0.5}, chord=0.05)
     assert mc.verify_stability(curve, n=2).certificate.holds

@@ -31,6 +31,7 @@ def damped_duffing(damping):
     )
 
 
+@pytest.mark.slow
 def test_a_linear_oscillator_resonates_at_its_undamped_frequency_whatever_the_force(tmp_path):
     path = tmp_path / "oscillator.xml"
     path.write_text(OSCILLATOR)
@@ -43,6 +44,7 @@ def test_a_linear_oscillator_resonates_at_its_undamped_frequency_whatever_the_fo
     assert curve["x.h1"] == pytest.approx(curve["F.amplitude"] / (0.3 * math.sqrt(2.0)), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damping", [0.02, pytest.param(0.01, marks=pytest.mark.long)])
 def test_the_backbone_of_a_lightly_damped_response_is_its_nonlinear_mode(damping):
     """The input has one harmonic, damping all: they differ by squares of damping."""

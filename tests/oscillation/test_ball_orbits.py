@@ -30,6 +30,7 @@ def among(found, wanted, tol):
     return all(np.abs(np.asarray(found) - w).min() <= tol for w in wanted)
 
 
+@pytest.mark.slow
 def test_a_rod_on_a_ball_joint_swings_in_a_plane_as_one_on_a_hinge_does():
     ball, hinge = swung(True), swung(False)
     for name in ("tip[0].max", "tip[0].h1", "tip[0].phase", "tip[2].max", "tip[2].mean"):
@@ -80,6 +81,7 @@ def test_a_rod_driven_round_moves_on_a_cone():
     assert orbit.read("tip[2]", orbit.times) == pytest.approx(-rotation(x)[2, 2], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_multipliers_of_a_cone_are_those_of_rest_in_turning_axes():
     orbit = coned()[-1].orbit
     cone = Cone(2.0 * math.pi * orbit.frequency, 2.0)
@@ -132,6 +134,7 @@ def cycles(ball):
     return mc.continue_cycles(rest.point("HB1"), chord=0.1)
 
 
+@pytest.mark.slow
 def test_cycles_from_a_hopf_point_are_those_on_a_hinge():
     ball, hinge = (cycles(b).at(push=0.35)[0] for b in (True, False))
     assert ball["period"] == pytest.approx(hinge["period"], rel=1e-9)
@@ -148,6 +151,7 @@ def test_a_cycle_is_found_from_a_pose():
     assert mc.find_cycle(lively(True), {"push": 0.35}, state=ASIDE).period == pytest.approx(known, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_cycle_is_found_from_the_end_of_a_history():
     known = cycles(False).at(push=0.35)[0]["period"]
     history = mc.simulate(lively(True), duration=10.0, start={"push": 0.35}, state=ASIDE)

@@ -42,6 +42,7 @@ def test_a_family_in_frequency_has_the_same_resonances(out_of_phase):
     assert other == pytest.approx([p["energy"] for p in out_of_phase.special_points], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_stable_and_an_unstable_family_of_three_periods_begin_at_a_resonance(out_of_phase):
     curve = mc.continue_modes(out_of_phase.point("IR1"), "energy", (4.3, 5.5))
     assert not curve.special_points
@@ -54,6 +55,7 @@ def test_a_stable_and_an_unstable_family_of_three_periods_begin_at_a_resonance(o
         assert abs(p.orbit.harmonics("x", 3)[2]) > 0.1  # the slower mode swings twice in three periods
 
 
+@pytest.mark.slow
 def test_a_bouncing_mass_begins_to_swing_where_hills_equation_says():
     curve = mc.continue_modes(elastic_pendulum(), "energy", (1e-3, 0.2), mode=2)
     (point,) = curve.special_points

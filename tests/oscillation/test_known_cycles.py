@@ -48,6 +48,7 @@ def test_a_relaxation_oscillation_has_no_special_points(relaxing):
     assert [status for status, _ in relaxing.ends] == ["at bound", "at bound"]
 
 
+@pytest.mark.slow
 def test_a_stiff_relaxation_oscillation_is_found_in_its_motion():
     assert mc.find_cycle(van_der_pol(100.0)).period == pytest.approx(162.8371, abs=1e-4)
 

@@ -152,6 +152,7 @@ def test_one_cycle_of_a_mode_closes_and_moves_with_its_speeds(tmp_path):
     np.testing.assert_allclose(rates[1:-1], history.velocities[1:-1], atol=1e-3 * np.abs(rates).max())
 
 
+@pytest.mark.slow
 def test_modes_are_drawn_animated_and_written(tmp_path):
     modes = mc.modes(mc.find_equilibrium(mc.Mechanism.from_xml("overcentre"), {"F": 30.0}))
     figure = modes.plot([1, 2])

@@ -47,10 +47,12 @@ def test_the_in_phase_mode_of_two_masses_has_its_energies_and_multipliers(in_pha
     check(in_phase, IN_PHASE)
 
 
+@pytest.mark.slow
 def test_the_out_of_phase_mode_of_two_masses_has_its_energies_and_multipliers():
     check(mc.continue_modes(cubic_pair(), "frequency", (0.15, 3.01 / TWO_PI), mode=2), OUT_OF_PHASE)
 
 
+@pytest.mark.slow
 def test_a_branch_leaves_the_in_phase_mode_where_its_pair_reaches_one(in_phase):
     point = in_phase.point("BPC1")
     omega, energy = RESONANCE
@@ -64,12 +66,14 @@ def test_a_branch_leaves_the_in_phase_mode_where_its_pair_reaches_one(in_phase):
     assert min(even) > 0.3 and even[0] == pytest.approx(even[1], rel=1e-6)  # two motions, each the other half a turn on
 
 
+@pytest.mark.slow
 def test_a_mechanism_has_the_modes_of_its_equations_and_says_what_is_left_out(tmp_path):
     curve = mc.continue_modes(loaded(CUBIC_PAIR, tmp_path), "frequency", (0.15, 0.2))
     check(curve, IN_PHASE)
     assert "left out: the damping of joint y; the damping of tendon between" in curve.notes
 
 
+@pytest.mark.slow
 def test_the_period_of_duffings_equation_is_its_elliptic_integral():
     curve = mc.continue_modes(duffing(), "energy", (1e-3, 50.0))
     exact = [period_of_duffing(e) for e in curve["energy"]]
@@ -77,6 +81,7 @@ def test_the_period_of_duffings_equation_is_its_elliptic_integral():
     assert curve.ends == [("at bound", "energy reached its bound 50")]
 
 
+@pytest.mark.slow
 def test_damping_of_a_field_with_velocities_is_left_out(in_phase):
     damped = mc.continue_modes(cubic_pair(damping=0.3), "energy", (0.1, 5.0))
     assert damped.notes == ("left out: what depends on the direction of motion",)
@@ -84,6 +89,7 @@ def test_damping_of_a_field_with_velocities_is_left_out(in_phase):
     assert TWO_PI * point["frequency"] == pytest.approx(IN_PHASE[2][0], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_period_of_a_pendulum_is_its_elliptic_integral(tmp_path):
     curve = mc.continue_modes(loaded(PENDULUM, tmp_path), "energy", (1e-2, 19.0))
     assert curve["period"] == pytest.approx(np.array([period_of_pendulum(e) for e in curve["energy"]]), rel=1e-8)
@@ -91,6 +97,7 @@ def test_the_period_of_a_pendulum_is_its_elliptic_integral(tmp_path):
     assert "left out: the damping of joint theta" in curve.notes
 
 
+@pytest.mark.slow
 def test_a_curve_in_frequency_begins_where_its_mode_comes_within_the_bounds():
     curve = mc.continue_modes(cubic_pair(), "frequency", (1.05 / TWO_PI, 1.1 / TWO_PI))
     assert curve["energy"][[0, -1]] == pytest.approx([IN_PHASE[1][1], IN_PHASE[2][1]], rel=1e-9)
@@ -149,6 +156,7 @@ def test_an_equilibrium_about_which_nothing_swings_has_no_modes():
 # -- stiff bushes ---------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", [pytest.param(1e3, marks=pytest.mark.long), 1e6])
 def test_a_mode_on_elastic_pins_begins_as_the_linear_one_and_is_stable(stiffness):
     overcentre = mc.Mechanism.from_xml("overcentre")

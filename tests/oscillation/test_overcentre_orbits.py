@@ -22,6 +22,7 @@ def response(parameter, bounds, stiffness, damping=0.0, mean=30.0, amplitude=5.0
     return mc.continue_response(model, parameter, bounds, forcing, start, frequency=omega / TWO_PI, **options)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", [long(1e3), 1e6])
 def test_an_orbit_with_its_stability_costs_about_one_jacobian_a_point(stiffness):
     """20 intervals of degree 4 have 80 points, at each of which a Jacobian of 12 columns takes 25 evaluations."""

@@ -26,6 +26,7 @@ def circle(seed):
     return mc.VectorField(seen.field(g), [0.0] * n, {"p": -0.5}), omega, bend, decays
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, *(pytest.param(k, marks=pytest.mark.fuzz) for k in range(2, 40))])
 def test_a_random_circle_has_its_period_and_multipliers(seed):
     field, omega, bend, decays = circle(seed)
@@ -40,6 +41,7 @@ def test_a_random_circle_has_its_period_and_multipliers(seed):
         assert np.abs(orbit.multipliers - math.exp(rate * period)).min() < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, *(pytest.param(k, marks=pytest.mark.fuzz) for k in range(2, 40))])
 def test_a_random_linear_oscillator_answers_as_it_must(seed):
     """m x'' + c x' + k x = F cos(2 pi f t): amplitude F / |k - m w^2 + i c w|, multipliers exp(s / f)."""
@@ -66,6 +68,7 @@ def test_a_random_linear_oscillator_answers_as_it_must(seed):
             assert np.abs(orbit.multipliers - mu).min() < 1e-6
 
 
+@pytest.mark.slow
 def test_a_mode_that_decays_at_once_is_no_bifurcation():
     """Gauss's |R(z)| -> 1 would put its multiplier on the unit circle."""
 

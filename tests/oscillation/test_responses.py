@@ -50,6 +50,7 @@ def stiff_response(parameter, bounds, amplitude, mean, omega, **options):
     )
 
 
+@pytest.mark.slow
 def test_a_stiff_overcentre_in_resonance_is_stable_and_has_no_false_points():
     """Gauss collocation calls rows of this curve unstable, with false period doublings."""
     response = stiff_response("frequency", (1.0 / (2.0 * math.pi), 6.0 / (2.0 * math.pi)), 5.0, 30.0, 2.0)
@@ -57,6 +58,7 @@ def test_a_stiff_overcentre_in_resonance_is_stable_and_has_no_false_points():
     assert set(response.stability) == {"stable"}
 
 
+@pytest.mark.slow
 def test_fast_modes_have_their_adiabatic_multipliers():
     """Moduli at k_j = 1e6 N/m, c_j = 0, F = 30 + 5 cos(2 t) N, by shooting: 0.183711, 0.020185, ..."""
     orbit = stiff_response("F.amplitude", (4.9, 5.0), 5.0, 30.0, 2.0).orbits[-1]
@@ -88,6 +90,7 @@ def test_a_parameter_of_the_model_called_frequency_is_named_in_the_error():
         mc.continue_response(field, "frequency", (0.1, 1.0), {"g": mc.Harmonic(1.0)})
 
 
+@pytest.mark.slow
 def test_a_curve_goes_on_to_both_sides_from_a_fold_of_its_own(resonance):
     again = mc.continue_response(resonance.point("LPC1"))
     assert [status for status, _ in again.ends] == ["at bound", "at bound"]
@@ -95,6 +98,7 @@ def test_a_curve_goes_on_to_both_sides_from_a_fold_of_its_own(resonance):
     assert [p["w"] for p in again.special_points] == pytest.approx([p["w"] for p in resonance.special_points], abs=1e-8)
 
 
+@pytest.mark.slow
 def test_a_response_begins_near_an_orbit_of_another_curve(resonance):
     near = resonance.at(w=1.5)
     assert len(near) == 3
@@ -103,6 +107,7 @@ def test_a_response_begins_near_an_orbit_of_another_curve(resonance):
         assert again.at(g=0.3)[0]["x.max"] == pytest.approx(orbit["x.max"], rel=1e-7)
 
 
+@pytest.mark.slow
 def test_a_response_of_a_model_begins_near_one_of_another():
     soft, stiff = mc.Mechanism.from_xml("overcentre"), mc.Mechanism.from_xml("overcentre")
     asked = {"parameter": "F.amplitude", "bounds": (4.0, 5.0), "forcing": {"F": mc.Harmonic(5.0)}, "direction": -1}

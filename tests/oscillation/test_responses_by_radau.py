@@ -54,6 +54,7 @@ def apart(mechanism, orbit):
     return float(np.abs(away).max() / sizes[:n].max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["overcentre, soft pins", "nose gear, unlock force", "truss"])
 def test_a_response_is_the_motion_that_radau_computes(name):
     curve = response(name)

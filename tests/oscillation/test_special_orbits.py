@@ -30,6 +30,7 @@ def only_point(curve):
 BOTH = pytest.mark.parametrize("forced", [long(False), True], ids=["free", "forced"])
 
 
+@pytest.mark.slow
 @BOTH
 def test_a_pair_of_orbits_leaves_a_symmetric_one(forced):
     curve = followed(fork(), 2, forced)
@@ -42,6 +43,7 @@ def test_a_pair_of_orbits_leaves_a_symmetric_one(forced):
     assert np.abs(orbit.multipliers - math.exp(-2.0 * 0.1 * TWO_PI)).min() < 1e-6
 
 
+@pytest.mark.slow
 @BOTH
 def test_two_curves_of_orbits_cross(forced):
     point = only_point(followed(crossing, 2, forced))
@@ -53,6 +55,7 @@ def test_two_curves_of_orbits_cross(forced):
         assert np.abs(at.orbit.multipliers - math.exp(-p * TWO_PI)).min() < 1e-6
 
 
+@pytest.mark.slow
 @BOTH
 def test_an_orbit_doubles_its_period(forced):
     curve = followed(fork(), 2, forced, turn=0.5)
@@ -66,6 +69,7 @@ def test_an_orbit_doubles_its_period(forced):
     assert np.abs(orbit.multipliers - math.exp(-2.0 * 0.1 * 2.0 * TWO_PI)).min() < 1e-6
 
 
+@pytest.mark.slow
 @BOTH
 @pytest.mark.parametrize("omega", [long(0.13), 0.31, long(0.47)])
 def test_a_torus_is_born(forced, omega):
@@ -77,6 +81,7 @@ def test_a_torus_is_born(forced, omega):
     assert point.note == ""
 
 
+@pytest.mark.slow
 @BOTH
 @pytest.mark.parametrize(("omega", "order"), [long(0.5, 2), long(1.0 / 3.0, 3), long(0.25, 4), (1.0, 1)])
 def test_a_strong_resonance_is_named(forced, omega, order):
@@ -87,6 +92,7 @@ def test_a_strong_resonance_is_named(forced, omega, order):
     assert f"strong resonance 1:{order}" in point.note
 
 
+@pytest.mark.slow
 @BOTH
 def test_two_multipliers_pass_one_together(forced):
     point = only_point(followed(fork(2), 3, forced, bounds=(-0.1, 0.1)))
@@ -95,6 +101,7 @@ def test_two_multipliers_pass_one_together(forced):
     assert "2 multipliers pass 1 together" in point.note
 
 
+@pytest.mark.slow
 @BOTH
 def test_two_multipliers_pass_minus_one_together(forced):
     point = only_point(followed(fork(2), 3, forced, turn=0.5, bounds=(-0.1, 0.1)))

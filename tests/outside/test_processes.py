@@ -72,6 +72,7 @@ def alive(group: int) -> bool:
     return True
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["SIGTERM", pytest.param("SIGKILL", marks=pytest.mark.long)])
 def test_figures_end_with_the_process_that_asked_for_them_and_write_nothing_afterwards(
     begin, tmp_path: Path, name: str
@@ -90,6 +91,7 @@ def test_figures_end_with_the_process_that_asked_for_them_and_write_nothing_afte
     assert process.returncode == {"SIGTERM": 143, "SIGKILL": -9}[name]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("delay", [0.0, 0.25])
 def test_an_interrupt_while_processes_start_gives_one_line(begin, tmp_path: Path, delay: float) -> None:
     process = begin()

@@ -238,6 +238,7 @@ def writes(call: ast.Call) -> bool:
     return name in WRITING or (name == "open" and bool({"w", "wb", "a", "ab", "r+", "a+b"} & modes))
 
 
+@pytest.mark.slow
 def test_nothing_is_written_to_disk_but_here() -> None:
     found = []
     for file in (f for f in PACKAGE.rglob("*.py") if f.name != "saving.py"):

@@ -52,6 +52,7 @@ def test_a_flipped_bit_in_an_attribute_is_an_error(saved: Path) -> None:
         mc.load(saved)
 
 
+@pytest.mark.slow
 def test_a_flipped_bit_anywhere_is_an_error(saved: Path) -> None:
     data = saved.read_bytes()
     random = np.random.default_rng(0)

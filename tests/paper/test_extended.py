@@ -52,6 +52,7 @@ def test_the_extended_report_has_the_studies_after_the_figures(scripts, here, tm
     assert '<h2 id="gale">' in result.report.read_text()
 
 
+@pytest.mark.slow
 def test_without_extended_it_is_the_paper_s_report(scripts, tmp_path):
     out = tmp_path / "out"
     report(out, say=quiet)
@@ -59,6 +60,7 @@ def test_without_extended_it_is_the_paper_s_report(scripts, tmp_path):
     assert "gale" not in (out / "report.md").read_text()
 
 
+@pytest.mark.slow
 def test_what_is_up_to_date_is_not_run_again_and_a_study_does_not_age_the_figures(scripts, here, tmp_path):
     out = tmp_path / "out"
     report(out, say=quiet)

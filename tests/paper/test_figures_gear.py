@@ -110,6 +110,7 @@ def test_the_folds_of_a_locus_lie_above_overcentre_on_one_side_of_the_cusp_and_b
     assert np.all(angle[force < found.cusp["F_ul"]] < 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("load_factor", LOADS)
 def test_retraction_force_at_fp1_falls_as_gravity_angle_rises(case, load_factor):
     loci = [case(load_factor, a) for a in ANGLES]
@@ -117,12 +118,14 @@ def test_retraction_force_at_fp1_falls_as_gravity_angle_rises(case, load_factor)
     assert np.all(np.diff([c.unlocked["F_ret"] for c in loci]) < 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("load_factor", LOADS)
 def test_the_steepest_descent_limits_both_forces(cusps, load_factor):
     assert np.all(np.diff(cusps("F_ret", load_factor)) < 0)
     assert np.all(np.diff(cusps("F_ul", load_factor)) > 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "load_factor", "share"),
     [("F_ret", 1.0, 0.344), ("F_ul", 1.0, 0.084), ("F_ret", 0.5, 0.345), ("F_ul", 0.5, 0.042), ("F_ul", 2.5, 0.208)],

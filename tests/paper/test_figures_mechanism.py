@@ -59,6 +59,7 @@ def test_findings_of_the_mechanism_figures(figure, holding, tmp_path, monkeypatc
     assert [meeting(f) for f in figures] == [[]]
 
 
+@pytest.mark.slow
 def test_no_texts_meet_in_figure_3(tmp_path, monkeypatch):
     figures = watched(monkeypatch, script(3))
     script(3).main(tmp_path)

@@ -130,6 +130,7 @@ def test_500_newton_unlock_the_gear_at_the_new_fp1_and_it_stays_unlocked_without
     assert path.final["theta_ov"] > 0 and path.final["F_ul"] == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("measure", ["position", long("force")])
 def test_in_still_air_the_gear_unlocks_beyond_the_turn_of_its_locus(gear, measure):
     """w . f_F_ret = 0 lies at F_ul = -19.58 N (mjcont), the cusp at -176.61 N."""

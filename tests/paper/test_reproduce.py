@@ -49,6 +49,7 @@ def quiet(line: str) -> None:
     pass
 
 
+@pytest.mark.slow
 def test_a_finished_figure_is_skipped_until_its_inputs_change(scripts, here, tmp_path):
     out = tmp_path / "out"
 
@@ -68,6 +69,7 @@ def test_a_finished_figure_is_skipped_until_its_inputs_change(scripts, here, tmp
     assert runs() == 4
 
 
+@pytest.mark.slow
 def test_a_figure_that_fails_or_crashes_harms_no_other(scripts, tmp_path):
     (scripts / "fig02.py").write_text(BAD)
     (scripts / "fig04.py").write_text(DEAD)
@@ -93,6 +95,7 @@ def test_a_figure_that_fails_or_crashes_harms_no_other(scripts, tmp_path):
         assert "its process ended with code 7" in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("script", [BAD, pytest.param(DEAD, marks=pytest.mark.long)], ids=["error", "crash"])
 def test_a_failure_of_an_earlier_run_still_counts(scripts, tmp_path, script):
     (scripts / "fig02.py").write_text(script)
@@ -170,6 +173,7 @@ def test_a_record_that_was_cut_short_is_drawn_again(scripts, here, tmp_path):
     assert json.loads(record.read_text())["findings"][0]["holds"] is True
 
 
+@pytest.mark.slow
 def test_the_environment_is_left_as_it_was(scripts, tmp_path, monkeypatch):
     monkeypatch.setenv("OMP_NUM_THREADS", "3")
     monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
@@ -211,6 +215,7 @@ def test_the_scripts_of_the_paper_are_found():
     assert {3, 5} <= set(available())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("figure", "holding"), [(3, [True] * 3), (5, [True] * 5)])
 def test_findings_of_the_overcentre_figures(figure, holding, tmp_path):
     script = Path(module.scripts_folder()) / f"fig{figure:02d}.py"

@@ -63,6 +63,7 @@ def shaken():
     return _shaken.Shaken.of("overcentre", rest, "theta_1", (-80.0, 80.0))
 
 
+@pytest.mark.slow
 def test_responses_differ_by_a_part_that_falls_as_the_stiffness_grows(shaken):
     compared = _shaken.compare("overcentre", shaken, "F")
     assert compared.slope == pytest.approx(-1.0, abs=0.01)

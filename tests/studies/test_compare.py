@@ -94,6 +94,7 @@ def test_what_has_no_points_is_not_compared(folder, tmp_path):
         compare(path, path, tmp_path)
 
 
+@pytest.mark.slow
 def test_the_command_prints_what_moved_and_draws_both(folder, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     old, new = (str(folder / f"out/{n}/equilibria.h5") for n in ("old", "new"))

@@ -44,6 +44,7 @@ def compared(models, tmp_path_factory):
     return compare(*models, tmp_path_factory.mktemp("compared"))
 
 
+@pytest.mark.slow
 def test_an_own_file_gives_a_labelled_diagram_in_three_commands(models, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(["inspect", str(models[0])]) == 0
@@ -127,11 +128,13 @@ def test_the_picture_shows_both_curves_under_their_names(compared):
     assert len({line.get_color() for line in drawn}) == 2
 
 
+@pytest.mark.slow
 def test_a_model_and_a_study_are_not_compared(models, tmp_path):
     with pytest.raises(mc.MjcontError, match="two models, or two of studies and results"):
         compare(models[0], "overcentre.toml", tmp_path)
 
 
+@pytest.mark.slow
 def test_an_answer_tells_value_margin_worst_case_influence_and_simulation(tmp_path, capsys):
     path = tmp_path / "study.toml"
     path.write_text(ANSWER, encoding="utf-8")

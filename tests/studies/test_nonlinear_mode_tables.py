@@ -39,6 +39,7 @@ def study(folder, text):
     return path
 
 
+@pytest.mark.slow
 def test_a_study_stores_a_family_and_goes_on_from_it(tmp_path):
     swing, onward = mc.run_study(mc.load_study(study(tmp_path, MODES)), tmp_path / "out")
     assert swing.kind == "nonlinear modes" and swing["energy"][[0, -1]] == pytest.approx([1e-3, 5.0])

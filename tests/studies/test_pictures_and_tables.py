@@ -131,6 +131,7 @@ def test_every_picture_shows_something(done: tuple[Path, dict[str, Any]], name: 
     assert colored(done[0] / f"{name}.png") > 1500
 
 
+@pytest.mark.slow
 def test_no_texts_of_a_picture_meet(done: tuple[Path, dict[str, Any]]) -> None:
     assert len(done[1]["figures"]) == len(PICTURES)
     assert [meeting(figure) for figure in done[1]["figures"]] == [[]] * len(PICTURES)

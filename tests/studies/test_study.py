@@ -141,6 +141,7 @@ def test_a_run_tells_each_result_and_where_its_curve_is(tmp_path: Path) -> None:
 SLOW = ("overcentre_cycle.toml", "overcentre_design.toml", "overcentre_shaken.toml")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "study",
     [pytest.param(p.name, marks=[pytest.mark.long] * (p.name in SLOW)) for p in sorted(STUDIES.glob("*.toml"))],

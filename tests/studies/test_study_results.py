@@ -281,6 +281,7 @@ def test_branches_start_from_points_of_earlier_results(tmp_path: Path) -> None:
     assert branch.row(branch.start_index)["P"] == 30.0
 
 
+@pytest.mark.slow
 def test_modes_and_transfer_functions_of_a_point_are_tabled_and_drawn(tmp_path: Path) -> None:
     branch, found, bode = run(
         tmp_path,

@@ -11,6 +11,7 @@ import mjcont as mc
 from mjcont.sweeps import engine as sweepengine
 
 
+@pytest.mark.slow
 def test_a_journal_cut_anywhere_is_resumed_to_the_same_table(tmp_path: Path) -> None:
     asked = study(tmp_path)
     mc.sweep(asked, out=tmp_path / "whole", workers=1)

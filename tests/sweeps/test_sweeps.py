@@ -100,6 +100,7 @@ def test_no_point_of_a_tree_is_deeper_than_the_limit() -> None:
 # -- what a sweep finds ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_every_case_is_the_fold_traced_afresh_at_its_parameters(tmp_path: Path) -> None:
     asked = study(tmp_path)
     followed = mc.sweep(asked, out=tmp_path / "f", limit=3, workers=1)
