@@ -109,6 +109,7 @@ USES: Mapping[str, tuple[Callable[..., Any], Mapping[str, Any]]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("use", USES)
 def test_a_wrong_kind_of_thing_is_told_in_a_sentence(use: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)

@@ -39,6 +39,7 @@ def test_inspect_prints_the_summary_of_a_result(stored: Path, capsys: pytest.Cap
     assert capsys.readouterr().out == f"{mc.load(stored)}\n"
 
 
+@pytest.mark.slow
 def test_run_prints_summaries_and_nothing_live_in_a_pipe(
     here: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -52,6 +53,7 @@ def test_run_prints_summaries_and_nothing_live_in_a_pipe(
     assert sorted(p.name for p in (here / "out").iterdir()) == ["equilibria.h5", "fig.png"]
 
 
+@pytest.mark.slow
 def test_run_is_silent_when_told_so(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (here / "study.toml").write_text(STUDY)
     assert main(["run", "study.toml", "--quiet"]) == 0

@@ -58,6 +58,7 @@ def test_a_run_tells_results_with_their_files_and_nothing_else(printed: Any, her
     assert facts["results"][0]["points"]
 
 
+@pytest.mark.slow
 def test_an_answer_tells_value_margin_and_influence(printed: Any, here: Path) -> None:
     (here / "study.toml").write_text(ANSWER)
     locks = printed("answer", "study.toml")["answers"]["locks"]

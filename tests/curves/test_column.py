@@ -112,6 +112,7 @@ def test_a_column_of_any_number_of_links_buckles_at_the_closed_form(count):
     assert regular(branch) == ["stable", "unstable"]
 
 
+@pytest.mark.slow
 def test_with_many_links_the_buckling_load_tends_to_eulers():
     # EI = k l, L = N l = 1; the relative error is pi^2 / (48 N^2) to leading order
     for count in (8, 16):
@@ -212,6 +213,7 @@ def test_the_second_buckled_shape_is_found_and_unstable(links, straight):
     assert p.stability == "unstable"
 
 
+@pytest.mark.slow
 def test_the_whole_diagram_is_found_from_the_straight_column(links):
     # up to 60 N three pairs of buckled shapes leave the straight column
     diagram = mc.bifurcation_diagram(links, "P", (0.0, 60.0))

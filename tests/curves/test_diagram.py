@@ -154,6 +154,7 @@ def test_the_summary_of_a_diagram_has_that_of_every_branch():
     assert text.count("BP1 (branch point)") == 2
 
 
+@pytest.mark.slow
 def test_the_limit_on_the_number_of_branches_is_kept_and_noted():
     diagram = mc.bifurcation_diagram(two_modes(), "mu", bounds=(0.0, 4.5), max_branches=3)
     assert len(diagram) == 3
@@ -196,6 +197,7 @@ def test_only_branch_points_have_branches_to_switch_to():
         mc.switch_branches(fold)
 
 
+@pytest.mark.slow
 def test_a_branch_point_of_a_fold_curve_has_no_branches_to_switch_to():
     field = mc.VectorField(lambda u, p: [u[0] ** 2 + p["la"] ** 2 - p["mu"]], [1.0], {"la": 0.0, "mu": 1.0})
     branch = mc.continue_equilibria(field, "la", bounds=(-2.0, 2.0))

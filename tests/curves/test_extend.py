@@ -50,6 +50,7 @@ def test_a_branch_that_was_cut_short_has_no_special_points_yet():
     assert beginning_of_ab().status == "max points"
 
 
+@pytest.mark.slow
 def test_an_extended_branch_has_the_special_points_of_the_whole_run():
     assert_same_points(mc.extend(beginning_of_ab()), branch_of_ab(18.0))
 
@@ -60,6 +61,7 @@ def test_an_extended_branch_reaches_both_bounds():
     assert branch.status == "at bound"
 
 
+@pytest.mark.slow
 def test_a_branch_extended_in_many_pieces_has_the_special_points_of_the_whole_run():
     branch = beginning_of_ab()
     for _ in range(30):
@@ -161,6 +163,7 @@ def test_a_mechanism_s_branch_is_extended(overcentre, overcentre_branch):
     assert_same_points(mc.extend(short), overcentre_branch())
 
 
+@pytest.mark.slow
 def test_an_extended_branch_goes_on_looking_for_the_user_zeros_it_was_made_with():
     short = mc.continue_equilibria(cusp(), "mu", bounds=(-1.0, 1.0), zeros={"x": 0.25}, max_points=5)
     whole = mc.continue_equilibria(cusp(), "mu", bounds=(-1.0, 1.0), zeros={"x": 0.25})
@@ -185,6 +188,7 @@ def test_extend_is_still_a_function_after_it_was_used():
 # -- files ----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_branch_that_was_saved_and_loaded_is_extended_to_the_bit_like_the_original(tmp_path):
     loaded = mc.load(beginning_of_ab().save(tmp_path / "short.h5"), problem=ab(18.0))
     one, other = mc.extend(loaded), mc.extend(beginning_of_ab())

@@ -54,6 +54,7 @@ def test_the_fold_curve_of_ab_reaches_its_bound_at_both_ends():
     assert folds_of_ab().status == "at bound"
 
 
+@pytest.mark.slow
 def test_the_fold_curve_of_ab_is_the_same_from_its_other_fold():
     for kind in ("CP", "BT"):
         one, other = only(folds_of_ab("LP1"), kind), only(folds_of_ab("LP2"), kind)
@@ -122,6 +123,7 @@ def test_the_hopf_curve_of_ab_takes_as_many_points_whichever_hopf_point_it_start
     assert len(hopfs_of_ab("HB1")) < 2 * len(hopfs_of_ab("HB2"))
 
 
+@pytest.mark.slow
 def test_the_hopf_curve_of_ab_reaches_its_bound_where_D_is_a_3000th_of_its_range():
     locus = hopfs_of_ab(high=50.0, direction=1, lyapunov=False)
     assert locus.status == "at bound", locus.message
@@ -282,6 +284,7 @@ def overcentre_folds(overcentre_branch):
     return folds
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", [UPPER, LOWER])
 @pytest.mark.parametrize("k_j", [1000.0, long(200.0), 100.0])
 def test_a_fold_curve_of_the_overcentre_passes_the_reference(overcentre_folds, k_j, which):

@@ -65,6 +65,7 @@ def double_hopf_branch():
     return mc.continue_equilibria(double_hopf(), "mu", bounds=(-1.0, 1.5))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("label", ["HB1", "HB2"])
 def test_a_double_hopf_point_is_found_on_both_hopf_curves_and_nothing_else(label):
     locus = mc.continue_special(double_hopf_branch().point(label), "nu", bounds=(0.0, 1.0))

@@ -59,6 +59,7 @@ def test_two_pitchforks_in_one_place_have_five_branches(n, size, seed):
     assert len(mc.bifurcation_diagram(problem, "p", (-1.0, 1.0))) == len(PITCHFORKS)
 
 
+@pytest.mark.slow
 def test_a_triangle_s_branches_are_three_that_turn_into_each_other():
     problem, _ = field(triangle, 2)
     (point,) = mc.continue_equilibria(problem, "p", (-1.0, 1.0)).special_points

@@ -188,6 +188,7 @@ def distinct(diagram):
     return sorted((kind, p) for kind, p, _, _ in points)
 
 
+@pytest.mark.slow
 def test_pp2_has_the_special_points_of_its_closed_form_and_no_others():
     fold, crossing = pp2_fold()[1], (2.0 / 3.0) / (1.0 - math.exp(-5.0 / 3.0))
     expected = [("BP", 0.6), ("BP", crossing), ("HB", PP2_HOPF), ("LP", fold)]
@@ -195,6 +196,7 @@ def test_pp2_has_the_special_points_of_its_closed_form_and_no_others():
     assert [p for _, p in distinct(diagram_of_pp2())] == pytest.approx([p for _, p in expected], abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "expected"),
     [("LP", 0.832929322234157), ("HB", 0.671593847478832), ("BP", 0.6), ("BP", 0.821904345373991)],

@@ -61,39 +61,46 @@ def gear_search():
 # -- the nose gear ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_nose_gear_at_400_kN_has_ten_equilibria_with_closed_pins(gear_search):
     assert len(gear_search) == 10
     assert sorted(p.n_unstable for p in gear_search) == [0] * 5 + [1] * 5
     assert max(gear_search.column("gap_C").max(), gear_search.column("gap_H").max()) < 0.05
 
 
+@pytest.mark.slow
 def test_its_equilibria_with_torn_pins_are_counted_but_not_listed(gear_search):
     assert gear_search.account.everywhere == 64
     assert "10 equilibria found in the region (64 in all)" in gear_search.status
 
 
+@pytest.mark.slow
 def test_indices_of_the_gears_equilibria_add_up_to_zero(gear_search):
     assert gear_search.account.index_sum == 0
 
 
+@pytest.mark.slow
 def test_every_listed_equilibrium_of_the_gear_is_at_rest(gear_search):
     gear = gear_search[0].problem
     for p in gear_search:
         assert np.abs(gear.acceleration(p.state, np.zeros(gear.n), p.parameters)).max() < 1e-5
 
 
+@pytest.mark.slow
 def test_the_search_finds_what_the_uplock_keyframe_flows_to(gear_search):
     point = mc.find_equilibrium(gear_search[0].problem, {"F_ret": 4e5}, keyframe="uplock_above")
     turns = (gear_search[0].problem.difference(p.state, point.state) / _TURN for p in gear_search)
     assert min(np.abs(t - np.round(t)).max() for t in turns) < 1e-7
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_the_same_seed_gives_the_same_list_to_the_bit(gear_search):
     again = find_equilibria(gear_with_gaps(), {"F_ret": 4e5}, region=CLOSED)
     assert np.array_equal([p.state for p in again], [p.state for p in gear_search])
 
 
+@pytest.mark.slow
 @pytest.mark.long
 @pytest.mark.parametrize("seed", [1, *(pytest.param(s, marks=pytest.mark.long) for s in (2, 3, 4))])
 def test_another_seed_gives_the_same_equilibria_of_the_gear(gear_search, seed):
@@ -213,6 +220,7 @@ def test_a_jacobian_of_the_user_is_used():
     assert calls
 
 
+@pytest.mark.slow
 def test_a_problem_without_equilibria_says_so():
     found = find_equilibria(mc.VectorField(lambda u, p: 1.0 + u**2, [0.0], {"a": 0.0}))
     assert len(found) == 0

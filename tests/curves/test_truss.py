@@ -244,6 +244,7 @@ def test_the_load_lost_to_a_small_imperfection_follows_koiters_two_thirds_power(
         assert lost == pytest.approx((27.0 * c * load**2 / (4.0 * b**3)) ** (1.0 / 3.0), rel=1e-2)
 
 
+@pytest.mark.slow
 def test_the_inner_path_ends_with_a_sentence_where_the_apex_meets_a_support(steep):
     # there s = a and P = 2 k a sqrt((L0 - a) / a): a bar has no length, and its force no direction
     (path,) = [b for b in mc.switch_branches(steep.point("BP2")) if np.abs(b["x"]).max() > 0.1]

@@ -105,6 +105,7 @@ def test_a_jump_moves_at_the_load_of_its_fold_from_one_rest_to_the_next(loop):
     assert moving[-1].y == pytest.approx(jump.after["theta_1"], abs=0.1)
 
 
+@pytest.mark.slow
 def test_a_load_path_begins_and_ends_at_its_ends(loop, tmp_path):
     frames = frames_of(track_of(loop, "F", "theta_1"), 20)
     assert np.array_equal(frames[0].state, loop.states[0]) and np.allclose(frames[-1].state, loop.states[-1])
@@ -199,6 +200,7 @@ def test_mujoco_renders_where_there_is_opengl_and_says_so_where_not(history, tmp
         assert np.abs(frames[0][:, :80] - frames[-1][:, :80]).max() > 50
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_gif_beside_the_result(history, tmp_path, capsys):
     file = history.save(tmp_path / "h.h5")
     assert main(["animate", str(file), "-y", "theta_1", "--seconds", "0.3", "--size", "240x120"]) == 0

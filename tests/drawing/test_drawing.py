@@ -250,6 +250,7 @@ def rectangles(ax):
     return [(b.min, b.max) for b in boxes]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("model", "keyframe"), [
     *zip(GEARS, KEYFRAMES[::3], strict=True), *(long(g, k) for g, k in product(GEARS, KEYFRAMES[1:3]))
 ])

@@ -20,6 +20,7 @@ def texts(ax):
     return sorted(t.get_text() for t in ax.texts)
 
 
+@pytest.mark.slow
 def test_cycles_are_drawn_as_envelopes_over_their_equilibria():
     equilibria, cycles = circles()
     ax = mc.plot(equilibria, cycles, x="b1", y="u[0]")
@@ -33,6 +34,7 @@ def test_cycles_are_drawn_as_envelopes_over_their_equilibria():
     assert min(line.get_ydata().min() for line in curved) == pytest.approx(-high)
 
 
+@pytest.mark.slow
 def test_a_fold_is_marked_on_both_envelopes_and_named_once():
     ax = mc.plot(circles()[1], x="b1", y="u[0]")
     marks = np.array([line.get_xydata()[0] for line in lines(ax, "_point")])
@@ -74,6 +76,7 @@ def test_an_orbit_is_a_closed_line():
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("q1 [deg]", "q2 [deg]")
 
 
+@pytest.mark.slow
 def test_an_orbit_is_drawn_against_its_own_rate():
     ax = resonance()[0].orbit.plot("x", degrees=False)
     x, rate = lines(ax, "_orbit")[0].get_data()

@@ -13,7 +13,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from problems.fields import branch_of_ab, branch_of_brusselator, branch_of_cusp
+from problems.fields import branch_of_ab, branch_of_brusselator
 from problems.reference import PARAMETERS, rigid_folds
 from problems.ziegler import column_branch
 
@@ -114,6 +114,7 @@ def full_gear_cusp():
     return mc.continue_special(full_gear_fold(), "k_j", bounds=(300.0, 1e7)).of_kind("CP")[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "point",
     [gear_fold, *(pytest.param(p, marks=pytest.mark.long) for p in (gear_cusp, full_gear_fold, full_gear_cusp))],
@@ -152,6 +153,7 @@ def test_the_gears_cusp_moves_with_8_parameters_as_points_solved_again_do():
     check(gear_cusp(), ["m_1", "k_j", "k_sp", "l_us", "gravity_angle", "load_factor", *GEOMETRY[1:3]])
 
 
+@pytest.mark.slow
 def test_dampers_do_not_move_the_gears_cusp_at_all():
     found = mc.sensitivities(gear_cusp(), NO_EFFECT)
     assert not found.derivatives.any()
@@ -218,6 +220,7 @@ def exothermic():
     return mc.VectorField(f, [0.0, 0.0], {"D": 0.0, "B": 18.0, "beta": 3.0}, names=["u", "v"])
 
 
+@pytest.mark.slow
 def test_the_cusp_of_the_exothermic_reaction_varies_as_its_closed_form():
     fold = mc.continue_equilibria(exothermic(), "D", bounds=(0.0, 0.6)).point("LP1")
     cusp = mc.continue_special(fold, "B", bounds=(8.0, 40.0)).point("CP1")
@@ -225,6 +228,7 @@ def test_the_cusp_of_the_exothermic_reaction_varies_as_its_closed_form():
     assert found == pytest.approx({"B": 4.0, "D": 0.0, "u": 0.0, "v": 0.0}, rel=1e-7, abs=1e-7)
 
 
+@pytest.mark.slow
 def test_the_bogdanov_takens_point_of_the_exothermic_reaction_varies_as_its_closed_form():
     fold = mc.continue_equilibria(exothermic(), "D", bounds=(0.0, 0.6)).point("LP1")
     (point,) = mc.continue_special(fold, "B", bounds=(8.0, 40.0)).of_kind("BT")
@@ -364,12 +368,6 @@ def test_a_guess_is_refused():
         mc.sensitivities(guess)
 
 
-@pytest.mark.parametrize("verb", [mc.sensitivities, lambda p: mc.continue_special(p, "m_1"), mc.switch_branches])
-def test_what_is_no_point_is_refused_with_what_to_write(verb):
-    with pytest.raises(mc.ParameterError, match=r'got the str .LP1.: take one of a branch: branch.point\("[BL]P1"\)'):
-        verb("LP1")
-
-
 def test_unknown_names_list_the_valid_ones():
     with pytest.raises(mc.NameLookupError, match="Did you mean m_1"):
         mc.sensitivities(gear_fold(), "m_11")
@@ -382,12 +380,6 @@ def test_unknown_names_list_the_valid_ones():
 def test_a_tolerance_must_be_positive():
     with pytest.raises(mc.ParameterError, match="must be positive"):
         mc.sensitivities(gear_fold(), "m_1", tolerances={"m_1": 0.0})
-
-
-def test_kinds_without_a_regular_system_are_refused_with_the_valid_ones():
-    other = replace(branch_of_cusp().special_points[0], kind="GH", label="GH1")
-    with pytest.raises(mc.MjcontError, match="Valid kinds: LP, HB"):
-        mc.sensitivities(other)
 
 
 def test_a_control_at_the_end_of_its_range_is_differenced_inwards(pendulum_xml):

@@ -150,6 +150,7 @@ def test_a_map_is_empty_where_the_point_has_ceased_to_exist():
     assert "ceases to exist" in found.messages[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["contour", "surface"])
 def test_a_map_is_drawn_over_its_grid(kind):
     found = mc.special_map(hill_fold(), {"p": [-1.0, 0.0, 1.0], "q": [-0.5, 0.5]})
@@ -170,6 +171,7 @@ def test_mistakes_of_maps_say_what_is_wrong():
 # -- worst cases ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_largest_value_inside_the_box_is_found_from_every_corner():
     found = mc.worst_case(hill_fold(), {"p": (-2.0, 2.0), "q": (-1.0, 3.0)})
     assert found.value == pytest.approx(1.0, rel=1e-12)
@@ -178,6 +180,7 @@ def test_a_largest_value_inside_the_box_is_found_from_every_corner():
     assert found.kkt < 1e-7
 
 
+@pytest.mark.slow
 def test_a_smallest_value_lies_in_the_farthest_corner_with_its_bounds_active():
     found = mc.worst_case(hill_fold(), {"p": (-2.0, 2.0), "q": (-1.0, 3.0)}, maximise=False, grid=5)
     assert found.parameters == {"p": -2.0, "q": 3.0}
@@ -210,6 +213,7 @@ def test_a_box_in_which_the_point_does_not_exist_is_a_status():
     assert "nothing in the box was reached" in found.message
 
 
+@pytest.mark.slow
 def test_a_box_of_five_parameters_needs_no_32_corners():
     def f(u, p):
         return [p["la"] + sum((i + 1) * p[f"p{i}"] for i in range(5)) - u[0] ** 2]

@@ -110,6 +110,7 @@ def test_a_stiffness_study_of_native_constraints_has_the_rigid_linkage_as_its_li
         np.testing.assert_allclose(rate, rate.mean(), rtol=0.02)
 
 
+@pytest.mark.slow
 def test_a_stiffness_study_names_the_stiffness_from_which_on_the_fold_is_rigid():
     branch, _ = branch_of("four_bar", "native", 1e6)
     fold = max(branch.of_kind("LP"), key=lambda p: p["M"])

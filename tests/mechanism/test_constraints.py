@@ -62,6 +62,7 @@ def test_a_ball_rests_on_the_floor_where_contact_carries_its_weight():
     assert mechanism.active(point.state, mechanism.values()) == {"contact of floor and ball"}
 
 
+@pytest.mark.slow
 def test_a_loop_closed_by_connect_bends_like_a_bush_of_its_effective_stiffness():
     bars = """<body><joint name="q1" axis="0 -1 0" stiffness="5" damping="0.1"/>
       <geom type="capsule" fromto="0 0 0 0 0 0.5" size="0.02" mass="1" contype="0" conaffinity="0"/>

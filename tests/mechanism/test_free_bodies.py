@@ -199,6 +199,7 @@ def test_above_that_buoyancy_the_float_is_stable_and_below_it_is_not(upright):
     assert np.array_equal(upright.stability[rows], expected[rows])
 
 
+@pytest.mark.slow
 def test_the_capsized_branch_rolls_right_over_to_the_float_upside_down(upright):
     (rolled,) = [b for b in mc.switch_branches(upright.point("BP1")) if b["upright"].min() < 0.9]
     assert rolled.status == "closed"
@@ -286,6 +287,7 @@ def test_folds_of_the_float_lie_where_the_hand_written_equations_have_them(loade
         assert fold["B"] == pytest.approx(found.x[6], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_folds_under_a_side_current_meet_in_a_cusp_where_the_upright_float_capsizes(tethered):
     start = {"B": 200.0, "F_y": 1.0}
     branch = mc.continue_equilibria(tethered, "B", bounds=(105.0, 400.0), start=start, keyframe="upright")

@@ -207,6 +207,7 @@ def test_a_link_on_a_spring_points_to_the_mocap_body_that_drags_it(limits):
     assert set(branch.stability) == {"stable"}
 
 
+@pytest.mark.slow
 def test_the_link_swings_to_where_the_mocap_body_moves():
     mechanism = dragged()
     history = mc.simulate(mechanism, {"mocap:hand.pos[2]": ([0.0, 1.0], [0.0, 2.0])}, duration=30.0)

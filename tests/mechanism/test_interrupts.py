@@ -62,6 +62,7 @@ def lines(work: Callable[[], Any], step: int) -> Iterator[int]:
         line += step
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("source", "asked", "step"),
     [

@@ -77,6 +77,7 @@ def test_the_three_folds_around_uplock_equal_the_reference(folds, load):
         assert_fold(fold, *expected)
 
 
+@pytest.mark.slow
 def test_with_500_newton_fp1_and_the_minimum_beside_it_equal_the_reference(folds):
     fp1, fp2, _ = folds(1.0, 0.0, -500.0)
     assert_fold(fp1, 414608.168, -7.55755)

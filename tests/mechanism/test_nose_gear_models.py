@@ -71,6 +71,7 @@ def test_forces_at_rest_are_those_of_the_independent_model(gear, by_hand):
         assert_equal_to(gear.residual(q, p), by_hand.forces_at_rest(q, p), 1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k_j", [1e6, 1e7, 1e8])
 def test_forces_in_assembled_poses_are_those_of_the_independent_model(gear, by_hand, k_j):
     """With closed pins weights, spring and actuators are not drowned by the bushes."""
@@ -243,6 +244,7 @@ def test_with_the_unlock_force_the_fold_lies_below_overcentre_at_the_reference_v
     assert degrees(fold, "theta_1") == pytest.approx(-60.19432, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_the_fold_locus_has_its_cusp_at_the_reference_values(retraction):
     locus = mc.continue_special(retraction.point("LP1"), "F_ul", bounds=(-1000, 0))
     (cusp,) = locus.of_kind("CP")

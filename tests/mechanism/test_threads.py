@@ -34,6 +34,7 @@ def together(work: list[Callable[[], Any]]) -> list[Any]:
         return list(pool.map(run, work))
 
 
+@pytest.mark.slow
 def test_one_mechanism_in_several_threads_gives_what_it_gives_in_one() -> None:
     alone = [curve(mc.Mechanism.from_xml("overcentre"), v, k_j=800.0 + v) for v in STARTS]
     shared = mc.Mechanism.from_xml("overcentre")

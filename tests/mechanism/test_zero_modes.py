@@ -77,6 +77,7 @@ def test_motions_against_each_other_that_nothing_opposes_are_held():
     assert (point.stability, point.n_unstable) == ("stable", 0)
 
 
+@pytest.mark.slow
 def test_a_body_that_nothing_holds_is_marginal_without_a_warning():
     mechanism = model(f'<body><joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 1 0"/>{BODY}</body>'
                       f'<body><joint type="slide" axis="1 0 0"/>{BODY}</body>')

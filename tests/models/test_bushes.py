@@ -88,6 +88,7 @@ def test_folds_approach_those_of_the_rigid_linkage_at_rate_1_over_k(name):
     np.testing.assert_allclose(errors[0] / errors[1], 10.0, rtol=0.02)
 
 
+@pytest.mark.slow
 def test_more_elastic_pins_than_needed_keep_the_rigid_limit_and_the_rate():
     errors = [folds("four_bar", k, joints=["crank", "pin_B", "rocker"]) - rigid("four_bar") for k in (1e5, 1e6)]
     assert np.abs(errors[1][:, 1]).max() < 1e-3

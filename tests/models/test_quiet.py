@@ -114,6 +114,7 @@ def strange_joint() -> None:
 VERBS = [wild_motion, wild_escape, massless, wild_search, edited, softened, strange_stop, strange_joint]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("verb", VERBS)
 def test_no_verb_lets_mujoco_speak(verb: Callable[[], None]) -> None:
     verb()

@@ -25,6 +25,7 @@ def door(margin=""):
     return mc.Mechanism.from_xml(DOOR.format(margin=margin))
 
 
+@pytest.mark.slow
 def test_equilibria_end_where_the_adhesion_lets_go():
     branch = mc.continue_equilibria(door(), "M", bounds=(0.0, 80.0), start={"hold": 1.0})
     status, sentence = branch.ends[-1]
@@ -35,6 +36,7 @@ def test_equilibria_end_where_the_adhesion_lets_go():
     assert corner["q"] == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_load_path_jumps_to_where_the_door_swings():
     path = mc.load_path(door(), "M", [0.0, 60.0], start={"hold": 1.0})
     (jump,) = path.jumps
@@ -55,11 +57,13 @@ def test_mujocos_own_door_swings_open_there():
         assert data.qpos[0] == pytest.approx(angle, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_a_lesser_pull_lets_go_at_a_lesser_load():
     path = mc.load_path(door(), "M", [0.0, 60.0], start={"hold": 0.5})
     assert path.jumps[0].before["M"] == pytest.approx(0.5 * PULL * ARM, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_contact_with_a_gap_holds_until_it_is_as_wide_as_its_margin():
     # the margins and gaps of both geoms add up: adhesion acts until the faces are 0.04 m apart
     path = mc.load_path(door('margin=".01" gap=".01"'), "M", [0.0, 60.0], start={"hold": 1.0})

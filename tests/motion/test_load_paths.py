@@ -101,6 +101,7 @@ def test_a_light_damper_gives_a_status_and_keeps_the_path_up_to_the_fold(overcen
 # -- the nose gear ----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_gear_passes_overcentre_at_fp1_and_stays_below_until_it_extends(gear):
     path = mc.load_path(gear, "F_ret", [4e5, 6e5, 3e4], keyframe="uplock_above")
     lock, extend = path.jumps
@@ -121,6 +122,7 @@ def test_the_gear_unlocks_at_fp1_of_the_lower_branch_under_the_unlock_force(gear
     assert {s.leg for s in path.segments} == {0, 1}
 
 
+@pytest.mark.slow
 def test_two_parameters_change_together_along_a_straight_leg(gear):
     path = mc.load_path(gear, [{"F_ret": 4e5, "F_ul": -450.0}, {"F_ret": 5e5, "F_ul": -550.0}],
                         keyframe="uplock_below")
@@ -209,6 +211,7 @@ def test_a_path_survives_its_file(cycle, tmp_path):
     assert loaded.jumps[0].after["theta_1"] == pytest.approx(cycle.jumps[0].after["theta_1"], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_a_damaged_file_of_a_path_is_refused(cycle, tmp_path):
     import h5py
 

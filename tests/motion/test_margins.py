@@ -52,6 +52,7 @@ def test_the_descent_beyond_the_pass_ends_in_the_inverted_truss(truss):
     assert barrier.beyond == pytest.approx([0.0, inverted], abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_search_finds_the_pass_that_a_branch_holds(truss):
     rest = upper(truss, 100.0)
     assert mc.energy_barrier(rest).energy == pytest.approx(closed_form(100.0), rel=1e-8)

@@ -61,6 +61,7 @@ def overcentre_state(mechanism, history):
     return np.column_stack([history[n] for n in names])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("integrator", "step"), [("RK4", 1e-3), ("discrete", 1e-4)])
 def test_the_overcentres_motion_is_that_of_an_independent_integration(pushed, integrator, step):
     mechanism, rest, force = pushed
@@ -102,6 +103,7 @@ def test_the_error_falls_with_the_order_of_the_integrator(pushed, integrator, or
     assert np.all(np.abs(slopes - order) < 0.15)
 
 
+@pytest.mark.slow
 def test_halving_reaches_the_tolerance_it_is_given(pushed):
     mechanism, rest, force = pushed
     loose, tight = (mc.simulate(mechanism, {"F": force}, 1.0, rest, tol=tol) for tol in (1e-2, 1e-3))
@@ -145,6 +147,7 @@ def pendulum(pendulum_xml, option=""):
     return mc.Mechanism.from_xml(text)
 
 
+@pytest.mark.slow
 def test_a_controller_of_proportional_and_derivative_feedback_makes_a_damped_oscillator(pendulum_xml):
     mechanism = pendulum(pendulum_xml)
     inertia, stiffness, damping = 1.01, 4.0, 2.0
@@ -190,6 +193,7 @@ def test_a_controller_saturates_at_the_actuators_range(pendulum_xml):
     assert np.all(history["M"] == 30.0)
 
 
+@pytest.mark.slow
 def test_gravity_that_turns_with_time_in_a_batch_is_gravity_written_before_every_step():
     gear = mc.Mechanism.from_xml("nose_gear")
     rest = mc.find_equilibrium(gear, {"F_ret": 4e5}, keyframe="uplock_above")

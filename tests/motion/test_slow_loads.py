@@ -46,6 +46,7 @@ def test_damping_alone_delays_to_airy_s_zero_and_inertia_alone_to_painleve_s_pol
     assert math.isnan(runaway(-0.1))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mixture", [1e-4, 0.02, 0.5, 0.97])
 def test_between_them_it_is_where_the_normal_form_s_own_motion_runs_away(mixture):
     m = mixture

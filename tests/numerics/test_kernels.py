@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import kernels
+import pytest
 from kernels import CORETYPE, DISABLED, Case, Probe, cases, distinct, table
 
 AVX512 = Probe({"numpy": "SkylakeX", "scipy": "SkylakeX"}, ["X86_V3", "X86_V4"])
@@ -64,6 +65,7 @@ def test_the_table_says_which_failed():
     assert lines == ["passed  Zen      900 passed", "FAILED  Haswell  1 failed"]
 
 
+@pytest.mark.slow
 def test_a_child_process_says_which_kernels_it_has():
     done = subprocess.run([sys.executable, kernels.__file__, "--probe"], capture_output=True, text=True, check=True)
     found = json.loads(done.stdout)

@@ -120,6 +120,7 @@ def test_folds_without_damping_are_no_hopf_points_and_their_coefficient_is_refus
         assert point.note == "the eigenvalue zero is double: no coefficient a"
 
 
+@pytest.mark.slow
 def test_a_linear_field_has_no_generalised_hopf_points():
     def f(u, p):
         rate, omega = p["a"], 1.0 + p["b"]
@@ -159,6 +160,7 @@ def ab_times(size):
     return mc.continue_equilibria(field, "D", bounds=(0.0, 0.6))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [1e-3, *map(long, (1e-2, 10.0, 1e2, 1e3))])
 def test_points_and_coefficients_do_not_depend_on_the_units_of_the_state(size):
     plain, other = ab_times(1.0), ab_times(size)

@@ -133,6 +133,7 @@ def test_a_first_step_without_points_inside_may_be_refused(stiffness):
         assert len(branch.of_kind("LP")) == (2 if stiffness < 20.0 else 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("links", [2, 4, 7])
 def test_all_buckling_loads_within_one_long_step_are_found(links):
     """Along the straight column K is affine in P, so the loads are eigenvalues of a pencil (no step is involved)."""

@@ -126,6 +126,7 @@ def test_a_hopf_point_of_a_linear_system_is_degenerate():
 # -- Bogdanov-Takens ------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("a", "b"), [(1.0, 1.0), (1.0, -1.0), (0.5, 2.0)])
 def test_bogdanov_takens_coefficients_are_those_of_the_normal_form_over_the_length_of_its_vector(a, b):
     def g(z, p):

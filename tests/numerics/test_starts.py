@@ -79,6 +79,7 @@ LEG = """<mujoco><option gravity="0 0 -9.81"/><worldbody>
     </body></body></worldbody><actuator><motor name="M" joint="a"/></actuator></mujoco>"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("h", [-0.05, -0.2, -0.3, -0.4])
 @pytest.mark.parametrize("k", [1000, 10000, 100000])
 def test_a_leg_that_falls_on_a_floor_comes_to_rest(h, k):

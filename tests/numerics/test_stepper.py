@@ -18,6 +18,7 @@ import mjcont as mc
 # -- closed curves --------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("radius", [1.0, 0.1, 1e-3])
 def test_an_isola_closes_on_itself_and_says_so(radius):
     branch = circle_branch(radius)
@@ -46,6 +47,7 @@ def test_an_isola_cut_by_its_bounds_is_not_closed():
     assert branch["la"][[0, -1]] == pytest.approx([-0.5, 0.5], abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("label", ["LP1", "LP2"])
 def test_an_isola_entered_at_a_fold_closes_with_both_folds(label):
     branch = circle_branch(start=circle_branch().point(label))
@@ -97,6 +99,7 @@ def test_the_separate_branch_of_an_imperfect_pitchfork_has_its_one_fold(eps):
     assert mu == pytest.approx(3.0 * (abs(eps) / 2.0) ** (2.0 / 3.0), rel=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [0.3, 0.03, 1e-3, *(pytest.param(g, marks=pytest.mark.long) for g in (0.1, 0.01))])
 @pytest.mark.parametrize("upper", [False, True], ids=["lower", "upper"])
 def test_curves_side_by_side_are_not_jumped_between(gap, upper):

@@ -55,6 +55,7 @@ def test_a_curve_ends_where_a_limit_of_an_observable_is_left():
     assert branch["x"][-1] > 0.5 >= branch["x"][-2]
 
 
+@pytest.mark.slow
 def test_a_curve_that_runs_to_infinity_ends_with_a_sentence():
     field = scalar(lambda x, p: 1.0 - p["mu"] * x, 1.0, mu=1.0)
     branch = mc.continue_equilibria(field, "mu", bounds=(-1.0, 2.0), max_size=20.0)

@@ -64,6 +64,7 @@ def test_a_response_that_does_not_resonate_has_no_backbone():
         mc.backbone(response)
 
 
+@pytest.mark.slow
 def test_a_backbone_belongs_to_a_response():
     field = damped_duffing(0.0)
     with pytest.raises(mc.MjcontError, match="continue_response"):

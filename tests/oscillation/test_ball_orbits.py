@@ -49,6 +49,7 @@ def test_states_are_unit_quaternions_and_velocities_those_of_the_hinge():
     assert ball.at(0.3)[4:] == pytest.approx([0.0, hinge.at(0.3)[1], 0.0], abs=1e-8)
 
 
+@pytest.mark.slow
 def test_multipliers_are_those_of_the_period_map():
     orbit, mechanism, h, columns = swung(True).orbit, rod(True, joint=SPRUNG), 1e-5, []
     pose, velocity = orbit.states[0], orbit.velocities[0]
@@ -71,6 +72,7 @@ def coned():
     return mc.continue_response(mechanism, "frequency", (0.5, 0.6), forcing, chord=0.1)
 
 
+@pytest.mark.slow
 def test_a_rod_driven_round_moves_on_a_cone():
     orbit = coned()[-1].orbit
     w = 2.0 * math.pi * orbit.frequency

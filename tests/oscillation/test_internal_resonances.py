@@ -27,6 +27,7 @@ def out_of_phase():
     return mc.continue_modes(cubic_pair(), "energy", (3.0, 12.0), mode=2)
 
 
+@pytest.mark.slow
 def test_a_mode_resonates_where_its_pair_passes_a_third_root_of_one(out_of_phase):
     points = out_of_phase.special_points
     assert [(p.kind, p.coefficients["order"]) for p in points] == [("IR", "3"), ("IR", "3")]
@@ -35,6 +36,7 @@ def test_a_mode_resonates_where_its_pair_passes_a_third_root_of_one(out_of_phase
         assert np.trace(monodromy(cubic_pair(), p.orbit)) == pytest.approx(2.0 - 1.0, abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_a_family_in_frequency_has_the_same_resonances(out_of_phase):
     curve = mc.continue_modes(cubic_pair(), "frequency", (1.8 / TWO_PI, 2.05 / TWO_PI), mode=2)

@@ -117,6 +117,7 @@ def test_a_pendulum_goes_round_with_the_known_period(damping, torque, period, fa
     assert orbit.states[:, 1].max() == pytest.approx(fastest, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_pendulum_that_hardly_gets_over_the_top_ends_its_curve_by_its_period():
     curve = mc.continue_cycles(pendulum_under_torque(0.5, 1.2), "torque", (0.3, 1.3), direction=-1)
     assert curve.status == "period"

@@ -43,6 +43,7 @@ def in_phase():
     return mc.continue_modes(cubic_pair(), "frequency", (0.15, 0.207))
 
 
+@pytest.mark.slow
 def test_the_in_phase_mode_of_two_masses_has_its_energies_and_multipliers(in_phase):
     check(in_phase, IN_PHASE)
 
@@ -103,6 +104,7 @@ def test_a_curve_in_frequency_begins_where_its_mode_comes_within_the_bounds():
     assert curve["energy"][[0, -1]] == pytest.approx([IN_PHASE[1][1], IN_PHASE[2][1]], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_modes_are_saved_and_go_on_from_any_orbit(in_phase, tmp_path):
     field = cubic_pair()
     loaded = mc.load(in_phase.save(tmp_path / "modes.h5"), problem=field)

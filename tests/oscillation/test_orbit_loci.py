@@ -94,6 +94,7 @@ def test_folds_of_cycles_of_the_bautin_form_end_at_its_generalised_hopf_point():
     assert locus["b2"].max() == 1.5
 
 
+@pytest.mark.slow
 def test_points_without_a_curve_are_named():
     response = mc.continue_response(around(fork_along_a_parabola, 2, {"p": -0.1, "q": 0.0}, [0.0, 0.0], forced=True),
                                     "p", (-0.1, 0.1))

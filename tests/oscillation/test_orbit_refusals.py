@@ -40,6 +40,7 @@ def test_a_response_ends_where_it_touches_a_stop():
     assert math.degrees(response["pivot.max"][-1]) == pytest.approx(30.0, abs=3.0)
 
 
+@pytest.mark.slow
 def test_a_response_that_touches_a_stop_from_the_start_is_refused():
     with pytest.raises(mc.StartError, match="touches .*limit of pivot"):
         swung(pendulum('range="-1 1" limited="true"'), (0.3, 0.6), 0.3)

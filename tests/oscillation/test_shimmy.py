@@ -19,11 +19,13 @@ def study(shimmy):
     return shimmy.compute(loads=(), checked=4)
 
 
+@pytest.mark.slow
 def test_rest_loses_stability_where_the_condition_of_hurwitz_says(shimmy, study):
     hopf = study.hopf
     assert hopf["F_z"] == pytest.approx(shimmy.hopf_load(hopf["V"]), rel=1e-8)
 
 
+@pytest.mark.slow
 def test_the_wheel_shimmies_below_the_speed_at_which_it_begins(study):
     begin, fold = study.rest.point("HB1"), study.cycles.point("LPC1")
     assert begin.coefficients["type"] == "subcritical"
@@ -31,6 +33,7 @@ def test_the_wheel_shimmies_below_the_speed_at_which_it_begins(study):
     assert set(study.cycles.stability[: fold.index]) != set(study.cycles.stability[fold.index + 1 :])
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_no_motion_stays_below_the_fold_and_a_large_one_does_above(shimmy, study):
     fold = study.cycles.point("LPC1")
@@ -41,5 +44,6 @@ def test_no_motion_stays_below_the_fold_and_a_large_one_does_above(shimmy, study
         assert (late > fold["psi.max"]) == lasts
 
 
+@pytest.mark.slow
 def test_all_findings_hold(shimmy, study):
     assert [f.claim for f in shimmy.findings(study) if not f.holds] == []

@@ -20,6 +20,7 @@ def interrupting(after):
     return progress
 
 
+@pytest.mark.slow
 def test_progress_counts_orbits_and_names_what_is_found():
     seen = []
     curve = mc.continue_cycles(circles()[0].point("HB1"), progress=lambda count, found: seen.append((count, found)))

@@ -39,6 +39,7 @@ def test_frequencies_left_open_hold_the_resonance(tmp_path):
     assert gain == pytest.approx(1 / (C * math.sqrt(K / M - (C / (2 * M)) ** 2)), rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "start", "driver", "hertz", "amplitude"), [
     long("overcentre", {"F": 30.0}, "F", 0.35, 1e-3),
     long("overcentre", {"F": 30.0}, "F", 3.3, 1e-3),

@@ -112,6 +112,7 @@ def test_an_older_file_that_hdf5_cannot_survive_is_an_error(old: Path, monkeypat
         mc.load(old)
 
 
+@pytest.mark.slow
 def test_an_older_file_with_bytes_overwritten_loads_or_is_an_error_of_ours(old: Path) -> None:
     data, random = old.read_bytes(), np.random.default_rng(1)
     for _ in range(2):

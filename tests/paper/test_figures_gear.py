@@ -47,6 +47,7 @@ def degrees_of(point, name):
     return float(np.degrees(point[name]))
 
 
+@pytest.mark.slow
 def test_fp1_equals_the_reference(case):
     fold = case(1.0, 0.0).fold
     assert fold["F_ret"] == pytest.approx(474766.687, rel=1e-8)
@@ -82,6 +83,7 @@ def test_fp1_lies_above_overcentre_without_unlock_force_and_below_with_500_newto
     assert found.fold["theta_ov"] > 0 > found.unlocked["theta_ov"]
 
 
+@pytest.mark.slow
 @NINE
 def test_every_locus_has_one_cusp_and_one_exchange_beside_it(case, load_factor, degrees):
     found = case(load_factor, degrees)

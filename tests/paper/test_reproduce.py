@@ -110,6 +110,7 @@ def test_figures_that_all_succeed_have_a_plain_headline(scripts, here, tmp_path)
     assert "\n1 of 2 findings hold in 1 figures. mjcont" in (tmp_path / "report.md").read_text()
 
 
+@pytest.mark.slow
 def test_the_command_ends_with_a_status_of_its_own_where_a_figure_failed(scripts, here, tmp_path, capsys):
     (scripts / "fig02.py").write_text(BAD)
     assert cli.main(["reproduce", "-o", str(tmp_path)]) != 0
@@ -130,6 +131,7 @@ def test_a_script_that_draws_nothing_has_failed(scripts, here, tmp_path):
     assert result.figures[1].reason == "fig01.py drew no fig01.png"
 
 
+@pytest.mark.slow
 def test_reports_hold_findings_and_pictures_and_are_the_same_every_time(scripts, here, tmp_path):
     reports = []
     for name in ("a", "b"):
@@ -157,6 +159,7 @@ def test_a_report_names_the_model_where_a_figure_has_several(scripts, here, tmp_
     assert "<td>first &amp; second</td>" in result.report.read_text()
 
 
+@pytest.mark.slow
 def test_the_report_covers_figures_of_earlier_runs(scripts, here, tmp_path):
     (scripts / "fig03.py").write_text(GOOD.replace("fig01", "fig03").replace("Figure 1", "Figure 3"))
     reproduce([1], tmp_path, say=quiet)
@@ -165,6 +168,7 @@ def test_the_report_covers_figures_of_earlier_runs(scripts, here, tmp_path):
     assert "## Figure 1: a line\n" in (tmp_path / "report.md").read_text()
 
 
+@pytest.mark.slow
 def test_a_record_that_was_cut_short_is_drawn_again(scripts, here, tmp_path):
     reproduce([1], tmp_path, say=quiet)
     record = tmp_path / "fig01.json"

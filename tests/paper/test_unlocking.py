@@ -64,6 +64,7 @@ def test_turbulence_is_the_same_for_the_same_seed_only():
     assert not np.array_equal(a, c)
 
 
+@pytest.mark.slow
 def test_in_still_air_the_force_measure_unlocks_beyond_the_cusp_only(stowed):
     runs = _unlocking.unlock_runs(stowed, "force", CUSP * np.array([0.9, 0.99, 1.01, 1.2]))
     assert list(runs.outcomes == 0) == [False, False, True, True]

@@ -75,6 +75,7 @@ def test_a_sweep_keeps_its_cases():
     assert np.all(np.diff(table["fold.F"][order]) > 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", sorted(WRITTEN.glob("*.h5")), ids=lambda p: p.stem)
 def test_what_is_loaded_is_saved_and_loaded_again(file, tmp_path):
     result = old(file.name)

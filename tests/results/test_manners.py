@@ -135,6 +135,7 @@ def test_frames_have_units(results: dict[str, Any], kind: str) -> None:
     assert set(frame.attrs["units"]) == set(frame.columns)
 
 
+@pytest.mark.slow
 def test_arrays_have_dimensions_and_units(results: dict[str, Any]) -> None:
     pytest.importorskip("xarray")
     grid = results["map"].to_xarray()

@@ -133,6 +133,7 @@ y = "elbow"
 """
 
 
+@pytest.mark.slow
 def test_a_study_that_used_the_bare_name_of_a_joint_stays_valid(tmp_path):
     (tmp_path / "arm.xml").write_text(ARM.format(sensor=""))
     (tmp_path / "study.toml").write_text(STUDY)

@@ -100,6 +100,7 @@ def test_any_text_comes_back_from_a_group_and_from_a_dataset(tmp_path: Path, tex
         assert read_text(f["text"]) == text
 
 
+@pytest.mark.slow
 def test_a_certificate_longer_than_an_attribute_may_be_is_kept(tmp_path: Path) -> None:
     with pytest.warns(mc.ResultWarning):
         branch = mc.load(WRITTEN / "mechanism_branch.h5")

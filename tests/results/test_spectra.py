@@ -72,6 +72,7 @@ def test_a_part_of_a_branch_computes_its_own(branch, expected):
     assert branch.spectra.missing()
 
 
+@pytest.mark.slow
 def test_a_longer_branch_computes_those_of_both_parts_where_they_are_read(expected):
     mechanism = mc.Mechanism.from_xml("overcentre")
     short = mc.continue_equilibria(mechanism, "F", (20.0, BOUNDS[1]), {"F": START})

@@ -41,6 +41,7 @@ def shifts(curve):
     return [m.new["F"] - m.old["F"] for m in curve.points]
 
 
+@pytest.mark.slow
 def test_studies_are_compared_curve_by_curve(folder, tmp_path):
     found = compare(folder / "old.toml", folder / "new.toml", tmp_path)
     assert [c.name for c in found.curves] == ["equilibria", "locus"]
@@ -48,6 +49,7 @@ def test_studies_are_compared_curve_by_curve(folder, tmp_path):
     assert found.missing == ()
 
 
+@pytest.mark.slow
 def test_results_are_compared_like_the_studies_that_made_them(folder, tmp_path):
     by_study = compare(folder / "old.toml", folder / "new.toml", tmp_path)
     stored = compare(folder / "out/old/equilibria.h5", folder / "out/new/equilibria.h5", tmp_path)

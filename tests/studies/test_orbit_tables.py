@@ -65,6 +65,7 @@ def done(tmp_path_factory):
     return loaded, run_study(loaded, folder / "out"), folder / "out"
 
 
+@pytest.mark.slow
 def test_a_study_stores_its_orbits_and_pictures(done):
     _, (_, flutter, shaken, _), out = done
     names = sorted(p.name for p in out.iterdir())
@@ -76,6 +77,7 @@ def test_a_study_stores_its_orbits_and_pictures(done):
     assert shaken["frequency"][0] == pytest.approx(0.1)
 
 
+@pytest.mark.slow
 def test_a_history_goes_on_from_an_orbit_for_ten_periods(done):
     _, (_, _, shaken, motion), _ = done
     orbit = shaken[-1].orbit
@@ -84,17 +86,20 @@ def test_a_history_goes_on_from_an_orbit_for_ten_periods(done):
     assert motion["q1"].max() == pytest.approx(orbit["q1"].max(), rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_summary_says_what_would_be_computed(done):
     text = summary(done[0])
     assert "flutter: cycles: from rest:HB1" in text
     assert "shaken: response: frequency from 0.1 Hz to 0.2 Hz, P moving" in text
 
 
+@pytest.mark.slow
 def test_a_plot_of_a_column_of_orbits_shows_orbits_alone(done):
     shown = {p.file: p.branches for p in done[0].plots}
     assert shown["shaken.png"] == ("flutter", "shaken")
 
 
+@pytest.mark.slow
 def test_files_of_orbits_are_inspected_plotted_and_exported(done, capsys):
     file = str(done[2] / "flutter.h5")
     assert main(["inspect", file]) == 0
@@ -106,6 +111,7 @@ def test_files_of_orbits_are_inspected_plotted_and_exported(done, capsys):
     assert "unknown column 'hip'" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [

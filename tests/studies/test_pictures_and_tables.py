@@ -115,17 +115,20 @@ def rows(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(f))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TABLES)
 def test_no_table_has_an_angle_in_radians(done: tuple[Path, dict[str, Any]], name: str) -> None:
     heads = list(rows(done[0] / f"{name}.csv")[0])
     assert not [h for h in heads if "[rad]" in h or "rad/N" in h]
 
 
+@pytest.mark.slow
 def test_every_table_and_picture_is_looked_at(done: tuple[Path, dict[str, Any]]) -> None:
     assert {p.stem for p in done[0].glob("*.csv")} == set(TABLES)
     assert {p.stem for p in done[0].glob("*.png")} == set(PICTURES)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PICTURES)
 def test_every_picture_shows_something(done: tuple[Path, dict[str, Any]], name: str) -> None:
     assert colored(done[0] / f"{name}.png") > 1500
@@ -137,6 +140,7 @@ def test_no_texts_of_a_picture_meet(done: tuple[Path, dict[str, Any]]) -> None:
     assert [meeting(figure) for figure in done[1]["figures"]] == [[]] * len(PICTURES)
 
 
+@pytest.mark.slow
 def test_a_map_and_the_improvements_of_a_worst_case_are_in_degrees(done: tuple[Path, dict[str, Any]]) -> None:
     found = rows(done[0] / "map.csv")
     assert [float(r["gravity_angle [deg]"]) for r in found[::3]] == pytest.approx([-10.0, -5.0, 0.0, 5.0, 10.0])
@@ -147,6 +151,7 @@ def test_a_map_and_the_improvements_of_a_worst_case_are_in_degrees(done: tuple[P
     assert float(last["gravity_angle [deg]"]) == pytest.approx(math.degrees(at))
 
 
+@pytest.mark.slow
 def test_derivatives_are_per_degree_and_in_degrees(done: tuple[Path, dict[str, Any]]) -> None:
     found = done[1]["influence"]
     angle, mass = rows(done[0] / "influence.csv")
@@ -157,6 +162,7 @@ def test_derivatives_are_per_degree_and_in_degrees(done: tuple[Path, dict[str, A
     assert float(angle["tolerance"]) == pytest.approx(math.degrees(found.tolerances["gravity_angle"]))
 
 
+@pytest.mark.slow
 def test_a_gain_is_in_degrees_per_newton(done: tuple[Path, dict[str, Any]]) -> None:
     found = rows(done[0] / "bode.csv")
     gain = [float(r["gain of theta_1 [deg/N]"]) for r in found]
@@ -165,6 +171,7 @@ def test_a_gain_is_in_degrees_per_newton(done: tuple[Path, dict[str, Any]]) -> N
         np.degrees(done[1]["bode"].phase("theta_1")))
 
 
+@pytest.mark.slow
 def test_radians_on_request_are_those_of_the_attributes(done: tuple[Path, dict[str, Any]], tmp_path: Path) -> None:
     found = rows(done[1]["map"].to_csv(tmp_path / "radians.csv", degrees=False))
     assert [float(r["gravity_angle [rad]"]) for r in found[::3]] == list(done[1]["map"].axes["gravity_angle"])

@@ -49,6 +49,7 @@ def message(folder: Path, text: str) -> str:
     return said
 
 
+@pytest.mark.slow
 def test_a_study_computes_stores_and_draws_what_it_asks_for(tmp_path: Path) -> None:
     study = load_study(write(tmp_path, GOOD + "csv = true\nzeros = { theta_1 = 0 }\n" + PLOT))
     (branch,) = run_study(study, tmp_path / "out")

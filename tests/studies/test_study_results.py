@@ -34,6 +34,7 @@ def rows(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(f))
 
 
+@pytest.mark.slow
 def test_a_diagram_starts_from_every_equilibrium_that_a_search_found(tmp_path: Path) -> None:
     found, ways = run(
         tmp_path,

@@ -41,6 +41,7 @@ def test_another_sweep_in_the_same_folder_is_refused(tmp_path: Path) -> None:
         mc.sweep(study(tmp_path), out=tmp_path, limit=2, record=["fold.F"], workers=1)
 
 
+@pytest.mark.slow
 def test_a_sweep_with_its_limit_raised_goes_on_to_what_it_gives_at_once(tmp_path: Path) -> None:
     asked = study(tmp_path)
     mc.sweep(asked, out=tmp_path / "more", limit=4, workers=1)
@@ -58,6 +59,7 @@ def test_a_sweep_with_its_limit_lowered_has_the_first_cases(tmp_path: Path) -> N
     np.testing.assert_array_equal(few["fold.F"], whole["fold.F"][:3])
 
 
+@pytest.mark.slow
 def test_a_design_that_can_be_extended_goes_on_to_more_cases(tmp_path: Path) -> None:
     asked = study(tmp_path)
     mc.sweep(asked, design="quasi-random", cases=3, out=tmp_path / "more", workers=1)

@@ -141,6 +141,7 @@ def test_two_processes_give_the_table_of_one_to_the_bit(tmp_path: Path) -> None:
     assert same(tmp_path / "1", tmp_path / "2")
 
 
+@pytest.mark.slow
 def test_a_table_is_read_as_it_was_stored_and_drawn(tmp_path: Path) -> None:
     table = mc.sweep(study(tmp_path), out=tmp_path / "out", workers=1)
     stored = mc.load(tmp_path / "out" / "sweep.h5")
@@ -309,6 +310,7 @@ def test_a_mistake_in_the_call_is_a_sentence(tmp_path: Path, changed: dict, said
     assert said in str(caught.value)
 
 
+@pytest.mark.slow
 def test_the_command_sweeps_draws_and_goes_on(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     study(tmp_path)
     command = ["sweep", str(tmp_path / "study.toml"), "-o", str(tmp_path / "o"), "--limit", "3", "--workers", "1"]
