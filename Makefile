@@ -9,6 +9,9 @@ STAMP := $(VENV)/.stamp
 UNFINISHED := $(VENV)/.unfinished
 OUT := out/reproduce
 
+# Tests start many processes: compiled once, the package starts faster in each.
+unexport PYTHONDONTWRITEBYTECODE
+
 # Without PYTHON=, an environment that is there keeps the interpreter it was made with.
 ifeq ($(origin PYTHON),undefined)
 PYTHON := $(or $(shell sed -n 2p $(STAMP) 2>/dev/null),python3)
