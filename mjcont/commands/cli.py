@@ -7,12 +7,13 @@ imported when it runs, so that `mjcont --help` is quick.
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from mjcont.commands import first, help, models, reports, results, studies
 from mjcont.commands.common import INTERRUPTED, USER_ERROR
-from mjcont.errors import MjcontError
+from mjcont.errors import MjcontError, unknown_name
 from mjcont.outside.interrupts import ended_by, termination_unwinds
 from mjcont.outside.terminal import complain
 
@@ -70,8 +71,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     int
         0; 1 if a figure could not be reproduced; 2 after a user's error; 130 if interrupted (143 by SIGTERM).
     """
-    args = parser().parse_args(argv)
+    top = parser()
     try:
+        _check_command(top, sys.argv[1:] if argv is None else argv)
+        args = top.parse_args(argv)
         with termination_unwinds():
             return int(args.command(args))
     except KeyboardInterrupt:
@@ -86,6 +89,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
         return _complain(f"error: {place}{error.strerror or error}", USER_ERROR)
+
+
+def _check_command(top: argparse.ArgumentParser, argv: Sequence[str]) -> None:
+    """Raise a NameLookupError where the first argument is a word and no command."""
+    commands = next(a.choices for a in top._actions if isinstance(a, argparse._SubParsersAction))
+    if argv and not argv[0].startswith("-") and argv[0] not in commands:
+        raise unknown_name("command", argv[0], commands)
 
 
 def _complain(message: str, status: int) -> int:

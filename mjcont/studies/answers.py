@@ -28,6 +28,7 @@ _CURVES = ("branch", "locus")
 _OWN: Mapping[str, f.Form] = {
     "worst": {**f.RANGES, "description": "Parameters with [low, high]: the box of the worst case."},
     "smallest": {**f.FLAG, "description": "Whether the worst is the smallest value, not the largest."},
+    "tolerances": {**f.VALUES, "description": "Changes that parameters may have, such as { m_1 = \"50 g\" }."},
     "simulations": {**f.whole(0), "description": "How many points of a curve are simulated beside; 0 for none."},
 }
 ANSWER: f.Form = {"type": "object", "description": "What points mean, such as locks = \"above:LP1\".",
@@ -37,12 +38,16 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class AnswerPlan:
-    """The points that have a meaning, by it; ranges for their worst case; how many simulations confirm them."""
+    """The points that have a meaning, by it; ranges for their worst case; how many simulations confirm them.
+
+    `tolerances` are those of the table itself, over those of the study's `[[sensitivities]]`.
+    """
 
     points: Mapping[str, k.Reference]
     worst: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     smallest: bool = False
     simulations: int = 6
+    tolerances: Mapping[str, float] = field(default_factory=dict)
 
 
 def read_answer(root: Table, context: k.Context) -> AnswerPlan | None:
@@ -58,7 +63,8 @@ def read_answer(root: Table, context: k.Context) -> AnswerPlan | None:
                     points[key] = refer(table, key, table.text(key), _CURVES, None, context)
         worst = v.ranges(table, "worst", context) if "worst" in table.data else {}
         count = v.whole(0)(table, "simulations", context) if "simulations" in table.data else 6
-        plan = AnswerPlan(points, worst, table.flag("smallest"), count)
+        own = v.tolerances(table, "tolerances", context) if "tolerances" in table.data else {}
+        plan = AnswerPlan(points, worst, table.flag("smallest"), count, own)
         if not points:
             raise table.error("", 'expected at least one point with its meaning, such as locks = "equilibria:LP1"')
     return plan if len(context.problems) == before else None
@@ -149,13 +155,20 @@ def answers(study: Any, results: Sequence[Any], say: Callable[[str], None] = lam
             raise type(error)(f"study '{study.file}': answer.{meaning}: {error}") from error
         if reference.result not in checked:
             checked[reference.result] = _simulated(reference.result, curve, study.answer.simulations, say)
-        found.append(_answer(meaning, str(reference), study.answer, curve, point, checked[reference.result], say))
+        found.append(_answer(meaning, str(reference), study.answer, curve, point, checked[reference.result],
+                             _tolerances(study, reference), say))
     return found
+
+
+def _tolerances(study: Any, reference: k.Reference) -> dict[str, float]:
+    """Return what the study says of how much parameters may change, for the sensitivities of one point."""
+    asked = [task.given for task in study.tasks if task.kind == "sensitivity" and task.given["point"] == reference]
+    return {n: t for given in [*(a["tolerances"] for a in asked), study.answer.tolerances] for n, t in given.items()}
 
 
 def _answer(
     meaning: str, reference: str, plan: AnswerPlan, curve: Any, point: SpecialPoint,
-    simulation: Certificate | str | None, say: Callable[[str], None],
+    simulation: Certificate | str | None, tolerances: Mapping[str, float], say: Callable[[str], None],
 ) -> Answer:
     """Return how sure a point is."""
     quantity = next(iter(point.free))
@@ -165,7 +178,7 @@ def _answer(
         say(f"worst case of {reference}")
         worst = _tried(lambda: worst_case(point, ranges, quantity=quantity, maximise=not plan.smallest))
     say(f"what {reference} depends on")
-    influence = _tried(lambda: _influence(point, quantity))
+    influence = _tried(lambda: _influence(point, quantity, tolerances))
     return Answer(meaning, reference, point, quantity, float(curve[quantity][curve.start_index]), worst, influence,
                   simulation)
 
@@ -186,8 +199,9 @@ def _tried(question: Callable[[], T]) -> T | str:
         return str(error)
 
 
-def _influence(point: SpecialPoint, quantity: str) -> Influence:
-    found = sensitivities(point, quantities=quantity)
+def _influence(point: SpecialPoint, quantity: str, tolerances: Mapping[str, float]) -> Influence:
+    own = {n: t for n, t in tolerances.items() if n not in point.free}
+    found = sensitivities(point, quantities=quantity, tolerances=own)
     name = found.ordered(quantity)[0]
     change = float(found.changes[found.parameters.index(name), 0])
     return Influence(name, float(found.tolerances[name]), abs(change), found.units[name])

@@ -296,6 +296,9 @@ def _parse(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except ValueError as error:
+        if text.lstrip().startswith("<"):
+            first = f"`mjcont init {path}` writes a first study of it"
+            raise StudyError(f"study '{path}': this is a model; {first}") from error
         raise StudyError(f"study '{path}': not valid TOML: {error}") from error
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+import string
 from collections.abc import Sequence
 
-from mjcont.errors import unknown_name
+from mjcont.errors import did_you_mean, unknown_name
 from mjcont.numerics.points.kinds import KINDS, found_on
 from mjcont.studies import forms as f
 from mjcont.studies.keys import Context, Known, Reader, Reference
@@ -83,7 +84,8 @@ def refer(
     if match is None or match[1] not in valid:
         choices = ", ".join([*(f"{v}1" for v in valid), *places]) + (", ..." if valid else "")
         what = f", a {KINDS[match[1]].name}," if match is not None and match[1] in KINDS else ""
-        raise table.error(key, f"'{label}'{what} is no point of '{name}' that will do here. Valid: {choices}.")
+        meant = did_you_mean(label, [*(v + label.lstrip(string.ascii_letters) for v in valid), *places])
+        raise table.error(key, f"'{label}'{what} is no point of '{name}' that will do here.{meant} Valid: {choices}.")
     if match[1] == "UZ" and not known.zeros:
         raise table.error(key, f"'{label}': '{name}' asks for no zeros, so it will have no UZ points")
     return Reference(name, label)

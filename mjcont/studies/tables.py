@@ -130,15 +130,6 @@ def _check_history(found: dict[str, Any], table: Table, context: Context) -> Non
     found["start"] = {**context.common, **found["start"]}
 
 
-@takes(f.VALUES)
-def _tolerances(table: Table, key: str, context: Context) -> dict[str, float]:
-    inner, found = table.table(key), {}
-    for name in inner.data:
-        with context.noting(), k.about(inner, name):
-            found[name] = v.positive(context.mechanism.parameter(name).unit)(inner, name, context)
-    return found
-
-
 @takes(f.TEXTS)
 def _quantities(table: Table, key: str, context: Context) -> tuple[str, ...]:
     names, valid = table.texts(key), [*units(context.mechanism), "omega"]
@@ -291,7 +282,7 @@ SENSITIVITY = Kind("sensitivities", "How a special point moves with every parame
                       otherwise="all that the model declares"),
     "quantities": Key(_quantities, "What moves: the point's parameters, observables, `omega`.",
                       otherwise="the point's parameters"),
-    "tolerances": Key(_tolerances, "Changes that the chart is for, such as `{ m_1 = \"50 g\" }`.", {},
+    "tolerances": Key(v.tolerances, "Changes that the chart is for, such as `{ m_1 = \"50 g\" }`.", {},
                       otherwise="1 deg, or 1 %"),
     "csv": _csv("a row a parameter", True), "png": _png("a tornado chart"),
 }, _check_sensitivity)

@@ -303,3 +303,13 @@ def _axis(inner: Table, name: str, unit: str, context: Context) -> tuple[float, 
     if not all(a < b and math.isfinite(b) for a, b in zip(axis, axis[1:], strict=False)):
         raise inner.error(name, "expected increasing values")
     return axis
+
+
+@takes(f.VALUES)
+def tolerances(table: Table, key: str, context: Context) -> dict[str, float]:
+    """Read changes of parameters, by name."""
+    inner, found = table.table(key), {}
+    for name in inner.data:
+        with context.noting(), about(inner, name):
+            found[name] = positive(context.mechanism.parameter(name).unit)(inner, name, context)
+    return found

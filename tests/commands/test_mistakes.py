@@ -9,10 +9,25 @@ from mjcont.commands.cli import main
 
 
 def test_arguments_that_do_not_parse_exit_with_2(capsys: pytest.CaptureFixture[str]) -> None:
-    for argv in ([], ["fly"], ["run"], ["plot", "a.h5"], ["view", "overcentre", "--at", "F"], ["reproduce", "x"]):
+    for argv in ([], ["run"], ["plot", "a.h5"], ["view", "overcentre", "--at", "F"], ["reproduce", "x"]):
         with pytest.raises(SystemExit) as end:
             main(argv)
         assert end.value.code == 2
+
+
+def test_an_unknown_command_asks_which_was_meant(fails: Fails) -> None:
+    assert "unknown command 'rum'. Did you mean run? Valid: animate, answer, " in fails("rum", "overcentre")
+
+
+def test_a_model_in_the_place_of_a_study_names_the_command_that_writes_one(fails: Fails, here: Path) -> None:
+    (here / "model.xml").write_text(FALLING)
+    assert "this is a model; `mjcont init model.xml` writes a first study of it" in fails("run", "model.xml")
+
+
+def test_a_label_in_small_letters_is_asked_about(fails: Fails, here: Path) -> None:
+    locus = '[[loci]]\nname = "folds"\npoint = "equilibria:lp1"\nparameter = "k_sp"\nbounds = [9, 11]\n'
+    (here / "study.toml").write_text(STUDY + locus)
+    assert "Did you mean LP1" in fails("run", "study.toml")
 
 
 def test_a_missing_model_lists_those_that_ship(fails: Fails) -> None:

@@ -144,6 +144,16 @@ def test_an_answer_tells_value_margin_worst_case_influence_and_simulation(tmp_pa
         assert words in text
 
 
+@pytest.mark.parametrize("where", ["answer", "sensitivities"])
+def test_an_answer_takes_the_tolerances_that_the_study_gives(tmp_path, capsys, where):
+    text = ANSWER.replace("worst = { k_sp = [9, 11] }\nsimulations = 2", "simulations = 0")
+    table = '\n[[sensitivities]]\nname = "influence"\npoint = "above:LP1"\n' if where == "sensitivities" else ""
+    (tmp_path / "study.toml").write_text(text + table + 'tolerances = { k_sp = "4 N/m" }\n')
+    assert main(["answer", str(tmp_path / "study.toml"), "-o", str(tmp_path)]) == 0
+    # changes of every other parameter move the fold less: F = 5.62 N + k_sp s, s = 1.8 at 10 N/m, with rigid pins
+    assert re.search(r"most sensitive to: k_sp: \+-4 N/m moves F by ", capsys.readouterr().out)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
