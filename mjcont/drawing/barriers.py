@@ -17,17 +17,22 @@ if TYPE_CHECKING:
 
 def draw_barriers(curve: BarrierCurve, ax: Axes | None = None) -> Axes:
     """Draw energy barriers along a parameter, each stable piece of the branch a line."""
+    from mjcont.drawing.notes import LEGEND, place_legend
     from mjcont.drawing.plotting import COLORS, new_figure
 
+    own = ax is None
     if ax is None:
         _, ax = new_figure()
     values = np.degrees(curve.values) if curve.unit == "rad" else curve.values
     energy = np.where(np.isfinite(curve.energy), curve.energy, np.nan)
     for i in range(int(curve.pieces[-1]) + 1):
         on = curve.pieces == i
-        ax.plot(values[on], energy[on], color=COLORS[i % len(COLORS)], linewidth=1.8, label="_barrier")
+        ax.plot(values[on], energy[on], color=COLORS[i % len(COLORS)], linewidth=1.8, label=f"stable piece {i + 1}")
     ax.set_ylim(bottom=0.0)
     label_axes(ax, (curve.name, curve.unit), ("energy barrier", "J"))
+    if curve.pieces[-1] > 0:
+        ax.legend(frameon=True, framealpha=0.9, edgecolor="none").set_label(LEGEND)
+        place_legend(ax, own)
     return ax
 
 

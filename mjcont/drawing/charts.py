@@ -28,6 +28,7 @@ _MORE, _LESS = "#1b4f8a", "#c4541a"
 
 def draw_tornado(s: Sensitivities, quantity: str, most: int, ax: Any) -> Any:
     """Draw a bar for each parameter from the change at minus its tolerance to that at plus, the widest on top."""
+    from mjcont.drawing.notes import LEGEND, place_legend
     from mjcont.drawing.plotting import new_figure
 
     if most < 1:
@@ -54,7 +55,8 @@ def draw_tornado(s: Sensitivities, quantity: str, most: int, ax: Any) -> Any:
     title = f"{where}: {readable(quantity)} = {show(s.values[quantity], s.units[quantity], 6)}"
     axes.set_title(title + (f"\n{rest} more move it less or not" if rest else ""), loc="left", fontsize=9.5)
     if names:
-        axes.legend(loc="lower right", frameon=True, framealpha=0.9, edgecolor="none")
+        axes.legend(frameon=True, framealpha=0.9, edgecolor="none").set_label(LEGEND)
+        place_legend(axes, ax is None)
     return axes
 
 

@@ -107,12 +107,13 @@ def xy(line: Line2D) -> Array:
 
 
 def drawn_points(ax: Axes) -> Array:
-    """Return points every two pixels along everything drawn as a line, (N, 2), in pixels."""
+    """Return points every two pixels along everything drawn as a line or a bar, (N, 2), in pixels."""
     points = [np.empty((0, 2))]
-    for line in ax.lines:
-        pixels = line.get_transform().transform(xy(line))
+    drawn = [line.get_transform().transform(xy(line)) for line in ax.lines if line.get_visible()]
+    drawn += [np.asarray(bar.get_transform().transform_path(bar.get_path()).vertices) for bar in ax.patches]
+    for pixels in drawn:
         pixels = pixels[np.isfinite(pixels).all(axis=1)]
-        if len(pixels) and line.get_visible():
+        if len(pixels):
             s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(pixels, axis=0).T))])
             along = np.linspace(0.0, s[-1], min(int(s[-1] / 2.0) + 2, 20_000))
             points.append(np.column_stack([np.interp(along, s, pixels[:, k]) for k in range(2)]))

@@ -98,8 +98,10 @@ def test_barriers_are_drawn_as_a_line_a_stable_piece_of_the_branch(truss):
         assert (min(heights) > 0.0) != (max(heights) < 0.0)
     ax = curve.plot()
     ax.figure.draw_without_rendering()
-    assert len(lengths(ax, "_barrier")) == 2
-    assert min(lengths(ax, "_barrier")) > 0.3 * ax.bbox.width
+    drawn = [length for piece in ("stable piece 1", "stable piece 2") for length in lengths(ax, piece)]
+    assert len(drawn) == 2
+    assert min(drawn) > 0.3 * ax.bbox.width
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["stable piece 1", "stable piece 2"]
 
 
 def test_a_pendulum_turns_over_past_a_barrier_of_twice_its_weight_times_length(pendulum_xml):
