@@ -350,8 +350,7 @@ def test_the_chart_has_a_bar_for_each_parameter_as_long_as_its_tolerance_makes_i
 
 def test_the_key_of_a_chart_covers_no_bar():
     found = mc.sensitivities(gear_fold(), ["m_1", "m_2", "m_3"])
-    wide = {n: abs(1.0 / found["F_ret", n]) for n in found.parameters}
-    axes = found.plot(tolerances=wide)  # bars of one length
+    axes = found.plot(tolerances={n: abs(1.0 / found["F_ret", n]) for n in found.parameters})  # bars of one length
     key = axes.get_legend().get_window_extent()
     assert len(axes.patches) == 6
     assert not any(key.overlaps(bar.get_window_extent()) for bar in axes.patches)
