@@ -111,8 +111,8 @@ def drawn_points(ax: Axes) -> Array:
     points = [np.empty((0, 2))]
     drawn = [line.get_transform().transform(xy(line)) for line in ax.lines if line.get_visible()]
     drawn += [np.asarray(bar.get_transform().transform_path(bar.get_path()).vertices) for bar in ax.patches]
-    for pixels in drawn:
-        pixels = pixels[np.isfinite(pixels).all(axis=1)]
+    for outline in drawn:
+        pixels = outline[np.isfinite(outline).all(axis=1)]
         if len(pixels):
             s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(pixels, axis=0).T))])
             along = np.linspace(0.0, s[-1], min(int(s[-1] / 2.0) + 2, 20_000))
