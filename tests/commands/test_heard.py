@@ -45,6 +45,7 @@ def test_maps_tell_nodes(fold: mc.SpecialPoint, heard: Any) -> None:
     assert heard[0][-1] == (4, 4)
 
 
+@pytest.mark.slow
 def test_worst_cases_tell_runs_and_the_nodes_that_confirm_them(fold: mc.SpecialPoint, heard: Any) -> None:
     mc.worst_case(fold, {"p": (-1.0, 1.0)}, grid=3, progress=heard[1])
     assert rising(heard[0])

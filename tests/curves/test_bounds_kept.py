@@ -93,6 +93,7 @@ def test_the_bound_decides_whether_a_curve_turns_at_a_fold_beside_it(low: float,
     assert len(branch.of_kind("LP")) == folds
 
 
+@pytest.mark.slow
 def test_no_value_beyond_either_pair_of_bounds_is_asked_for_along_a_locus():
     def run(field: mc.VectorField) -> mc.Branch:
         branch = mc.continue_equilibria(field, "a", bounds=(-0.6, 0.6))

@@ -194,6 +194,7 @@ def test_the_tip_stands_where_the_angles_of_the_elastica_put_it(buckled, load):
         assert p["tip_z"] == pytest.approx(LINK * np.cos(angles).sum(), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_folds_of_the_pushed_column_meet_in_a_cusp_at_the_buckling_load(links):
     start = {"H": 0.01, "P": 10.0}
     branch = mc.continue_equilibria(links, "P", bounds=(0.0, 12.0), start=start, keyframe="leaning_left")

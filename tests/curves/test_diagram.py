@@ -31,6 +31,7 @@ def coordinates(point):
 # -- switching ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_switching_at_a_pitchfork_gives_the_straight_branch_and_the_parabola():
     straight, parabola = sorted(mc.switch_branches(branch_of(pitchfork).point("BP1")), key=lambda b: np.ptp(b["x"]))
     assert straight["x"] == pytest.approx(np.zeros(len(straight)), abs=1e-12)
@@ -39,6 +40,7 @@ def test_switching_at_a_pitchfork_gives_the_straight_branch_and_the_parabola():
     assert sorted(parabola["x"][[0, -1]]) == pytest.approx([-1.0, 1.0], rel=1e-10)
 
 
+@pytest.mark.slow
 def test_switching_at_a_transcritical_point_gives_both_lines():
     flat, slanted = sorted(mc.switch_branches(branch_of(transcritical).point("BP1")), key=lambda b: np.ptp(b["x"]))
     assert flat["x"] == pytest.approx(np.zeros(len(flat)), abs=1e-12)
@@ -62,6 +64,7 @@ def test_a_switched_branch_carries_its_branch_point_in_its_place():
         assert branch["mu"][point.index - 1] < point["mu"] < branch["mu"][point.index + 1]
 
 
+@pytest.mark.slow
 def test_a_switched_branch_says_which_branch_point_it_comes_from():
     for branch in mc.switch_branches(branch_of(transcritical).point("BP1")):
         assert "through BP1" in branch.start
@@ -72,6 +75,7 @@ def test_switching_keeps_to_the_bounds_that_are_given():
         assert branch["mu"][[0, -1]] == pytest.approx([-0.2, 0.4], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_the_halves_of_a_pitchfork_that_mirror_each_other_are_noted():
     branches = mc.switch_branches(branch_of(pitchfork).point("BP1"))
     notes = [b.notes for b in sorted(branches, key=lambda b: np.ptp(b["x"]))]
@@ -81,6 +85,7 @@ def test_the_halves_of_a_pitchfork_that_mirror_each_other_are_noted():
 # -- diagrams -------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_diagram_of_a_circle_and_a_line_has_both_curves_once():
     diagram = diagram_of(circle_and_line, -2.0, 2.0)
     line, circle = diagram
@@ -100,6 +105,7 @@ def test_a_circle_entered_through_a_crossing_has_its_two_folds():
     assert sorted(p["mu"] for p in circle.of_kind("LP")) == pytest.approx([-1.0, 1.0], rel=1e-10)
 
 
+@pytest.mark.slow
 def test_three_curves_that_all_cross_each_other_are_found_once_each():
     diagram = diagram_of(circle_and_two_lines, -2.0, 2.0)
     assert len(diagram) == 3

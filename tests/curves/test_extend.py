@@ -55,6 +55,7 @@ def test_an_extended_branch_has_the_special_points_of_the_whole_run():
     assert_same_points(mc.extend(beginning_of_ab()), branch_of_ab(18.0))
 
 
+@pytest.mark.slow
 def test_an_extended_branch_reaches_both_bounds():
     branch = mc.extend(beginning_of_ab())
     assert list(branch["D"][[0, -1]]) == list(BOUNDS)
@@ -72,12 +73,14 @@ def test_a_branch_extended_in_many_pieces_has_the_special_points_of_the_whole_ru
     assert_same_points(branch, branch_of_ab(18.0))
 
 
+@pytest.mark.slow
 def test_extending_goes_on_from_both_ends():
     branch = mc.extend(middle_of_ab())
     assert_same_points(branch, branch_of_ab(18.0))
     assert list(branch["D"][[0, -1]]) == list(BOUNDS)
 
 
+@pytest.mark.slow
 def test_the_start_stays_marked_when_points_are_put_before_it():
     before, after = middle_of_ab(), mc.extend(middle_of_ab())
     assert after["D"][after.start_index] == before["D"][before.start_index]
@@ -94,6 +97,7 @@ def test_only_the_end_that_is_named_is_extended(end, bound):
     assert branch.ends[other][0] == "max points"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("direction", [1, -1])
 def test_a_branch_in_one_direction_is_extended_to_both_sides(direction):
     short = middle_of_ab(direction)
@@ -106,6 +110,7 @@ def test_a_branch_in_one_direction_is_extended_to_both_sides(direction):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("label", ["HB1", "LP1", "LP2", "HB2"])
 def test_a_branch_that_starts_at_a_special_point_in_one_direction_is_extended_to_both_sides(label):
     point = branch_of_ab(18.0).point(label)
@@ -115,6 +120,7 @@ def test_a_branch_that_starts_at_a_special_point_in_one_direction_is_extended_to
     assert sorted(p.kind for p in branch.special_points) == ["HB", "HB", "LP", "LP"]
 
 
+@pytest.mark.slow
 def test_wider_bounds_lengthen_a_branch():
     narrow = mc.continue_equilibria(ab(18.0), "D", bounds=(0.0, 0.1))
     assert narrow.special_points == ()
@@ -123,6 +129,7 @@ def test_wider_bounds_lengthen_a_branch():
     assert dict(wide.free) == {"D": BOUNDS}
 
 
+@pytest.mark.slow
 def test_extending_keeps_the_points_that_are_there():
     wide = mc.extend(beginning_of_ab())
     size = len(beginning_of_ab())
@@ -130,6 +137,7 @@ def test_extending_keeps_the_points_that_are_there():
     assert np.array_equal(wide["D"][:size], beginning_of_ab()["D"])
 
 
+@pytest.mark.slow
 def test_extending_does_not_change_the_branch_it_is_given():
     branch = beginning_of_ab()
     size, ends = len(branch), list(branch.ends)
@@ -211,6 +219,7 @@ def test_a_locus_that_was_saved_and_loaded_is_extended(tmp_path):
 # -- loci -----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_fold_curve_that_was_cut_short_is_extended_to_the_whole():
     short = folds_of_ab(max_points=6)
     assert short.special_points == ()
@@ -224,6 +233,7 @@ def test_a_fold_curve_is_extended_into_wider_bounds():
     assert_same_points(mc.extend(short, {"B": (8.0, 40.0)}), folds_of_ab())
 
 
+@pytest.mark.slow
 def test_an_extended_fold_curve_obeys_its_closed_form():
     locus = mc.extend(folds_of_ab(max_points=6))
     assert locus["u"] * (1.0 - locus["u"]) == pytest.approx(4.0 / locus["B"], abs=1e-8)
@@ -247,6 +257,7 @@ def test_a_hopf_curve_that_ended_at_its_bogdanov_takens_point_stays_as_it_is():
     assert [word for word, _ in locus.ends] == [word for word, _ in whole.ends]
 
 
+@pytest.mark.slow
 def test_a_curve_of_cusps_is_extended():
     def f(u, p):
         return [p["mu"] + p["la"] * u[0] + p["e"] * u[0] ** 2 - u[0] ** 3]
@@ -263,6 +274,7 @@ def test_a_curve_of_cusps_is_extended():
 # -- mistakes -------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_closed_branch_has_no_ends_to_extend():
     field = mc.VectorField(lambda u, p: [u[0] ** 2 + p["la"] ** 2 - 1.0], [-1.0], {"la": 0.0})
     closed = mc.continue_equilibria(field, "la", bounds=(-2.0, 2.0))

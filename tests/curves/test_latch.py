@@ -124,6 +124,7 @@ def test_the_door_shuts_again_at_the_load_that_turns_the_contact_onto_the_back_o
     assert shuts["theta"] == pytest.approx(theta, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_a_moment_on_the_pawl_releases_the_loaded_door_where_the_statics_say(latch):
     contact, stop = stiffness(latch)
     branch = mc.continue_equilibria(latch, "M", bounds=(0.0, 2.0), start={"F": 20.0})

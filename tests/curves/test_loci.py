@@ -26,6 +26,7 @@ FOLD_LABELS = {UPPER: "LP2", LOWER: "LP1"}
 # -- folds of ab in (D, B) ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_fold_curve_of_ab_has_one_cusp_and_one_bogdanov_takens_point_and_nothing_else():
     assert sorted(kinds(folds_of_ab())) == ["BT", "CP"]
 
@@ -131,6 +132,7 @@ def test_the_hopf_curve_of_ab_reaches_its_bound_where_D_is_a_3000th_of_its_range
     assert -1.0 / (1.0 - u) + B * u - 4.0 == pytest.approx(0.0 * u, abs=1e-8)
 
 
+@pytest.mark.slow
 def test_no_generalised_hopf_point_is_sought_when_l1_is_not_wanted():
     assert kinds(hopfs_of_ab(lyapunov=False)) == ["BT"]
 
@@ -241,6 +243,7 @@ def upright(pendulum):
     return mc.continue_equilibria(pendulum, "load_factor", bounds=(0.0, 0.2), start={"load_factor": 0.0})
 
 
+@pytest.mark.slow
 def test_the_branch_point_of_the_pendulum_persists_in_the_stiffness_of_its_spring(pendulum):
     locus = mc.continue_special(upright(pendulum).point("BP1"), "k", bounds=(0.5, 1.5))
     assert locus["load_factor"] * 9.81 == pytest.approx(locus["k"], rel=1e-8)

@@ -16,6 +16,7 @@ import mjcont as mc
 # -- starts and ends ----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_user_zeros_on_a_locus_are_located_to_1e_10():
     locus = mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", bounds=(15.0, 30.0), zeros={"u": 0.2})
     points = locus.of_kind("UZ")
@@ -117,11 +118,13 @@ def test_an_unknown_kind_to_end_at_is_refused():
         mc.continue_special(branch_of_ab(18.0).point("LP1"), "B", (8.0, 40.0), end_at=["XX"])
 
 
+@pytest.mark.slow
 def test_a_generalised_hopf_point_has_no_curve_to_follow():
     with pytest.raises(mc.MjcontError, match="kind GH has no curve to follow"):
         mc.continue_special(only(hopfs_of_ab(), "GH"), "B")
 
 
+@pytest.mark.slow
 def test_special_points_stand_in_order_along_a_locus():
     rows = [p.index for p in folds_of_ab().special_points]
     assert all(a < b for a, b in itertools.pairwise(rows))

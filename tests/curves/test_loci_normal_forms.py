@@ -17,6 +17,7 @@ def zero_hopf_branch(s, a, c):
     return mc.continue_equilibria(zero_hopf(s, a, c), "b1", bounds=(-1.5, 1.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", FORMS)
 def test_a_fold_curve_has_one_zero_hopf_point_and_nothing_else(form):
     locus = mc.continue_special(only(zero_hopf_branch(*form), "LP"), "b2", bounds=(-0.6, 0.6))
@@ -82,6 +83,7 @@ def test_a_double_hopf_point_states_both_frequencies(label, own, other):
     assert coefficients["omega2"] == pytest.approx(FREQUENCIES[other], rel=1e-8)
 
 
+@pytest.mark.slow
 def test_double_hopf_coefficients_are_those_of_the_normal_form():
     locus = mc.continue_special(double_hopf_branch().point("HB1"), "nu", bounds=(0.0, 1.0))
     coefficients = only(locus, "HH").coefficients
@@ -89,6 +91,7 @@ def test_double_hopf_coefficients_are_those_of_the_normal_form():
     assert coefficients["delta"] == pytest.approx(0.3, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("label", "growth"), [("HB1", lambda m, n: m - n**2), ("HB2", lambda m, n: m + n - 1.0)])
 def test_hopf_curves_that_cross_each_other_are_followed_through_the_crossing(label, growth):
     locus = mc.continue_special(double_hopf_branch().point(label), "nu", bounds=(0.0, 1.0), lyapunov=False)

@@ -70,6 +70,7 @@ def test_a_triangle_s_branches_are_three_that_turn_into_each_other():
         assert min(np.abs(np.subtract(z, other)).max() for other in found) < 1e-6
 
 
+@pytest.mark.slow
 def test_three_lines_through_one_point_are_found_though_no_eigenvalue_changes_its_sign():
     problem, _ = field(lines, 1)
     diagram = mc.bifurcation_diagram(problem, "p", (-1.0, 1.0))

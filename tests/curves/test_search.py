@@ -265,6 +265,7 @@ def test_progress_hears_of_every_equilibrium_once():
     assert sum(item.kind == "EQ" for item in heard) == len(found) == 9
 
 
+@pytest.mark.slow
 def test_the_result_prints_as_a_table_and_starts_a_diagram():
     found = find_equilibria(cubes(1))
     assert "E1" in str(found)

@@ -229,6 +229,7 @@ def test_a_sideways_load_turns_the_branch_point_into_a_fold_at_a_smaller_load(tr
     assert 0.0 < fold["P"] < steep.point("BP1")["P"]
 
 
+@pytest.mark.slow
 def test_the_load_lost_to_a_small_imperfection_follows_koiters_two_thirds_power(truss, steep):
     # near the point 0 = b p x + c x^3 + H: folds where p^3 = -(27/4) (c / b^3) H^2 (Koiter 1945)
     bifurcation = steep.point("BP1")["P"]

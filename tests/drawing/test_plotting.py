@@ -220,6 +220,7 @@ def test_line_styles_differ():
     assert len({str(style) for style in LINE_STYLES.values()}) == 3
 
 
+@pytest.mark.slow
 def test_poses_of_several_mechanisms_share_a_figure_and_may_show_a_part_of_the_plane(overcentre):
     figure, axes = new_figure(1, 2)
     gear = mc.Mechanism.from_xml("nose_gear_locking")

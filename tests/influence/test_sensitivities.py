@@ -138,6 +138,7 @@ def overcentre_cusp():
     return mc.continue_special(overcentre_fold(), "l_us", bounds=(0.2, 1.5)).point("CP1")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "point", [overcentre_fold, pytest.param(overcentre_cusp, marks=pytest.mark.long)], ids=lambda p: p.__name__
 )
@@ -354,9 +355,6 @@ def test_the_key_of_a_chart_covers_no_bar():
     key = axes.get_legend().get_window_extent()
     assert len(axes.patches) == 6
     assert not any(key.overlaps(bar.get_window_extent()) for bar in axes.patches)
-
-
-# -- mistakes ---------------------------------------------------------------------------------------------------
 
 
 def test_a_parameter_of_the_point_itself_is_refused():

@@ -189,6 +189,7 @@ def test_a_smallest_value_lies_in_the_farthest_corner_with_its_bounds_active():
     assert "none better" in found.message
 
 
+@pytest.mark.slow
 def test_one_bound_is_active_where_the_largest_value_lies_on_an_edge():
     found = mc.worst_case(hill_fold(), {"p": (0.5, 2.0), "q": (-1.0, 3.0)})
     assert found.parameters == pytest.approx({"p": 0.5, "q": -0.2}, abs=1e-6)

@@ -25,6 +25,7 @@ def held(mechanism):
     return mechanism.rigid_modes(mechanism.start_state(), mechanism.values())
 
 
+@pytest.mark.slow
 def test_a_lever_beside_a_balanced_wheel_is_followed_and_the_wheel_is_held():
     branch = mc.continue_equilibria(model(LEVER.format("") + WHEEL.format("1 0 0", "")), "T")
     assert branch.notes == ("rigid-body zero modes held: rotation of wheel about (0, 1, 0)",)
@@ -36,6 +37,7 @@ def test_a_lever_beside_a_balanced_wheel_is_followed_and_the_wheel_is_held():
     assert [word for word, _ in branch.ends] == ["at bound", "at bound"]
 
 
+@pytest.mark.slow
 def test_a_wheel_on_a_lever_is_free_about_its_axle_wherever_that_is():
     branch = mc.continue_equilibria(model(LEVER.format(WHEEL.format(".3 0 0", ""))), "T")
     assert "rotation of wheel about (0, 1, 0)" in branch.notes[0]
@@ -99,6 +101,7 @@ def test_a_block_on_a_level_rail_slides():
     assert held(tilted) == ()
 
 
+@pytest.mark.slow
 def test_a_turntable_with_a_load_is_free_as_one():
     table = f"""<body name="table" pos="2 0 0"><joint name="turn" axis="0 0 1" damping="1"/>
       <geom type="cylinder" size=".5 .02" mass="1" {APART}/>
@@ -123,6 +126,7 @@ def test_the_name_of_a_body_without_one_is_its_joints():
     assert held(mechanism) == ("rotation of wheel about (0, 1, 0)",)
 
 
+@pytest.mark.slow
 def test_a_pendulum_on_a_ball_joint_turns_about_the_vertical_wherever_the_lever_carries_it():
     hanging = f"""<body name="bob" pos=".3 0 0"><joint name="ball" type="ball" damping=".1"/>
       <geom type="capsule" size=".02" fromto="0 0 0 .1 0 -.3" mass="1" {APART}/></body>"""

@@ -90,6 +90,7 @@ def test_an_integrated_velocity_servo_rests_at_its_setpoint():
         mechanism.values({"u": 3.0})
 
 
+@pytest.mark.slow
 def test_an_integrated_setpoint_can_be_continued_and_moved_in_time():
     mechanism = slider('<intvelocity name="u" joint="z" kp="50" actrange="-1 2"/>')
     branch = mc.continue_equilibria(mechanism, "u")

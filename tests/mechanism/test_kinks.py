@@ -77,6 +77,7 @@ def test_a_mast_turns_back_where_its_guy_goes_slack():
         assert near.stability == expected
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("actuator", "joint", "note"),
     [
@@ -100,6 +101,7 @@ def test_a_servo_that_saturates_lets_an_inverted_pendulum_fall(actuator, joint, 
     assert {p.stability for p in beyond} == {"unstable"}
 
 
+@pytest.mark.slow
 def test_a_saturated_servo_goes_on_with_constant_force_and_no_longer_damps():
     servo = '<position name="servo" joint="x" kp="40" kv="3" forcerange="-8 8"/>'
     branch = mc.continue_equilibria(slider(actuator=servo), "F", bounds=(-20.0, 20.0))
@@ -111,6 +113,7 @@ def test_a_saturated_servo_goes_on_with_constant_force_and_no_longer_damps():
         assert point.eigenvalues.real == pytest.approx(-damping / 2.0, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_control_ceases_to_act_where_its_servo_saturates():
     servo = '<position name="servo" joint="x" kp="40" forcerange="-8 8"/>'
     branch = mc.continue_equilibria(slider(actuator=servo), "servo", bounds=(-2.0, 2.0))
@@ -170,6 +173,7 @@ def test_disabled_springs_and_actuators_have_no_kinks():
     assert not mc.Mechanism.from_xml(off).nonsmooth
 
 
+@pytest.mark.slow
 def test_a_corner_is_an_equilibrium_to_the_residual_that_its_row_states():
     # a bob on a stiff stop, turned by gravity: each corner is a row of the branch, and MuJoCo's own inverse dynamics
     # ask for no torque there

@@ -17,6 +17,7 @@ def without_collector():
     gc.enable()
 
 
+@pytest.mark.slow
 def test_a_mechanism_and_its_branches_go_when_nothing_refers_to_them(without_collector) -> None:
     mechanism = mc.Mechanism.from_xml("von_mises_truss")
     branch = mc.continue_equilibria(mechanism, "P", bounds=(-200.0, 200.0), keyframe="unloaded")

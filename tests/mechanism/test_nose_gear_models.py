@@ -81,6 +81,7 @@ def test_forces_in_assembled_poses_are_those_of_the_independent_model(gear, by_h
         assert_equal_to(gear.residual(q, p), by_hand.forces_at_rest(q, p), 1e-9)
 
 
+@pytest.mark.slow
 def test_accelerations_in_motion_are_those_of_the_independent_model(gear, by_hand):
     for q, p, rng in random_cases(gear, 20):
         v = rng.uniform(-1, 1, gear.n)

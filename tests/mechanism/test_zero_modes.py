@@ -65,6 +65,7 @@ def test_tilting_gravity_does_not_push_where_gravity_is_compensated():
     assert branch.notes == ("rigid-body zero modes held: rotation about z",)
 
 
+@pytest.mark.slow
 def test_motions_against_each_other_that_nothing_opposes_are_held():
     """Two bodies pinned together, free in space: three turns of one against the other are no motion of the whole."""
     world = """

@@ -81,6 +81,7 @@ def test_folds_equal_those_of_the_equations_written_by_hand(name):
     np.testing.assert_allclose(found, elastic(name, 1e6), rtol=0, atol=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK_FIRST)
 def test_folds_approach_those_of_the_rigid_linkage_at_rate_1_over_k(name):
     errors = [folds(name, k) - rigid(name) for k in (1e5, 1e6)]
@@ -95,6 +96,7 @@ def test_more_elastic_pins_than_needed_keep_the_rigid_limit_and_the_rate():
     np.testing.assert_allclose(errors[0] / errors[1], 10.0, rtol=0.02)
 
 
+@pytest.mark.slow
 def test_equal_stiffness_along_all_axes_makes_the_frame_indifferent():
     world, parent = (folds("four_bar", 1e4, joints=["pin_B"], frame=frame) for frame in ("world", "parent"))
     np.testing.assert_allclose(world, parent, rtol=0, atol=1e-8)

@@ -226,6 +226,7 @@ def test_the_command_inspect_prints_it(capsys):
     assert "connect F: " in capsys.readouterr().out.split("constraints as springs")[1]
 
 
+@pytest.mark.slow
 def test_a_branch_says_which_springs_its_constraints_are(tmp_path):
     mechanism = mc.Mechanism.from_spec(mc.set_constraint_stiffness("four_bar", 1e6))
     branch = mc.continue_equilibria(mechanism, "M", bounds=(-20, 20), max_points=20)
@@ -235,12 +236,14 @@ def test_a_branch_says_which_springs_its_constraints_are(tmp_path):
     assert line in str(mc.load(tmp_path / "branch.h5"))
 
 
+@pytest.mark.slow
 def test_a_branch_in_the_stiffness_says_its_range():
     mechanism = mc.Mechanism.from_spec(mc.set_constraint_stiffness("four_bar", 1e6))
     branch = mc.continue_equilibria(mechanism, "equality:C.stiffness", bounds=(1e5, 1e7))
     assert "connect C is a spring of 1e+05 to 1e+07 N/m at rest" in branch.notes
 
 
+@pytest.mark.slow
 def test_the_note_is_on_the_stiffness_at_the_parameters_of_the_branch():
     mechanism = mc.Mechanism.from_spec(mc.set_constraint_stiffness("four_bar", 1e6))
     branch = mc.continue_equilibria(
@@ -249,6 +252,7 @@ def test_the_note_is_on_the_stiffness_at_the_parameters_of_the_branch():
     assert "connect C is a spring of 3e+04 N/m at rest" in branch.notes
 
 
+@pytest.mark.slow
 def test_the_note_follows_a_mass_that_the_constraint_weighs():
     mechanism = mc.Mechanism.from_spec(mc.set_constraint_stiffness("four_bar", 1e6))
     values = {"body:rocker.mass": 1.0}

@@ -78,6 +78,7 @@ def test_factors_and_declarations_in_the_xml_act_on_the_stiffness():
     assert "connect C is a spring of 5e+04 N/m at rest" in branch.notes
 
 
+@pytest.mark.slow
 def test_a_file_brings_the_parameter_back(tmp_path):
     mechanism = mc.Mechanism.from_spec(mc.set_constraint_stiffness("four_bar", 1e6))
     branch = mc.continue_equilibria(mechanism, "equality:C.stiffness", bounds=(1e5, 1e7))

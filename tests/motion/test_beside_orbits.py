@@ -69,6 +69,7 @@ def test_a_motion_on_a_response_of_a_field_keeps_its_forcing():
     assert history["x"] == pytest.approx([orbit.at(t)[0] for t in history["time"]], abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_motion_on_a_response_of_a_mechanism_has_its_inputs():
     rods = mc.Mechanism.from_xml("ziegler_rods")
     curve = mc.continue_response(
@@ -119,6 +120,7 @@ def test_motions_beside_flutter_shrink_to_it():
     assert "motions beside it shrink" in check.sentence
 
 
+@pytest.mark.slow
 def test_rests_of_a_field_are_checked_as_those_of_a_mechanism():
     certificate = mc.verify_stability(circles()[0], n=5).certificate
     assert certificate.holds

@@ -109,6 +109,7 @@ def test_a_wrong_classification_is_contradicted():
     assert "motions grow at" in wrong.certificate.checks[0].sentence
 
 
+@pytest.mark.slow
 def test_a_wrong_eigenvalue_is_contradicted():
     branch = curve("von_mises_truss")
     wrong = mc.verify_stability(branch_with(branch, spectra=Spectra.of(1.1 * branch.eigenvalues)), 4)
@@ -131,6 +132,7 @@ def test_points_too_slow_for_the_steps_allowed_are_unresolved_and_say_so():
     assert not certificate.holds
 
 
+@pytest.mark.slow
 def test_the_certificate_goes_with_the_branch_into_its_file_and_summary(tmp_path):
     branch = mc.verify_stability(curve("tethered_body"), 5)
     loaded = mc.load(branch.save(tmp_path / "branch.h5"))

@@ -51,6 +51,7 @@ def test_it_lands_at_rest_on_the_other_stable_piece_at_the_same_load(overcentre,
         assert nearest < 1e-9
 
 
+@pytest.mark.slow
 def test_motion_and_creep_land_at_the_same_rest(branch, cycle):
     creeping = mc.load_path(branch, "F", [50.0, -50.0, 50.0], landing="creep")
     for a, b in zip(cycle.jumps, creeping.jumps, strict=True):
@@ -112,6 +113,7 @@ def test_the_gear_passes_overcentre_at_fp1_and_stays_below_until_it_extends(gear
     assert np.all(between < 0)
 
 
+@pytest.mark.slow
 def test_the_gear_unlocks_at_fp1_of_the_lower_branch_under_the_unlock_force(gear):
     path = mc.load_path(
         gear, [{"F_ret": 4e5, "F_ul": 0.0}, {"F_ul": -500.0}, {"F_ret": 6e5}], keyframe="uplock_below"
@@ -158,6 +160,7 @@ def test_the_truss_snaps_at_its_closed_form_and_lands_where_it_bears_that_load()
     assert snap.energy == pytest.approx(energy(before) - energy(below), rel=1e-8)
 
 
+@pytest.mark.slow
 def test_the_toggle_clamp_opens_where_its_stop_unloads_and_closes_onto_it():
     path = mc.load_path(mc.Mechanism.from_xml("toggle_clamp"), "M", [20.0, -20.0, 20.0], keyframe="closed")
     opens, closes = path.jumps
@@ -171,6 +174,7 @@ def test_the_toggle_clamp_opens_where_its_stop_unloads_and_closes_onto_it():
     assert "stop" in closes.energy_note
 
 
+@pytest.mark.slow
 def test_a_vector_field_jumps_at_its_fold_to_the_other_root():
     field = mc.VectorField(lambda u, p: [p["a"] + u[0] - u[0] ** 3], [-1.3], {"a": -1.0})
     path = mc.load_path(field, "a", [-1.0, 1.0, -1.0])

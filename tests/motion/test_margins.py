@@ -104,6 +104,7 @@ def test_barriers_are_drawn_as_a_line_a_stable_piece_of_the_branch(truss):
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["stable piece 1", "stable piece 2"]
 
 
+@pytest.mark.slow
 def test_a_pendulum_turns_over_past_a_barrier_of_twice_its_weight_times_length(pendulum_xml):
     pendulum = mc.Mechanism.from_xml(pendulum_xml(joint='damping="0.1"'))
     rest = mc.find_equilibrium(pendulum, state=[math.pi])
@@ -139,6 +140,7 @@ def test_the_map_of_the_gear_agrees_with_single_barriers_and_ends_where_the_rest
         assert found.energy[j, 0] == pytest.approx(mc.energy_barrier(point).energy, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_follower_force_has_no_energy_barrier():
     gear = mc.Mechanism.from_xml("nose_gear_full")
     rest = mc.find_equilibrium(gear, {"F_ret": 10.0})

@@ -232,6 +232,7 @@ def test_many_runs_at_once_are_the_runs_one_by_one(overcentre):
         np.testing.assert_allclose(found.states, mc.simulate(overcentre, duration=1.0, **case).states, atol=1e-13)
 
 
+@pytest.mark.slow
 def test_only_the_cases_that_need_it_are_repeated_at_finer_steps(overcentre):
     rest = mc.find_equilibrium(overcentre, {"F": 50.0})
     cases = [{"start": rest}, {"inputs": {"F": 40.0}, "start": rest}]
@@ -251,6 +252,7 @@ def test_a_run_that_diverges_does_not_harm_its_neighbours():
     np.testing.assert_array_equal(tame.states, alone.states)
 
 
+@pytest.mark.slow
 def test_a_vectorised_controller_is_called_once_for_all_runs_with_arrays(overcentre):
     class Law:
         vectorised = True
@@ -294,6 +296,7 @@ def test_a_saved_history_loads_with_columns_settings_and_model(overcentre, tmp_p
     np.testing.assert_array_equal(again.states, history.states)
 
 
+@pytest.mark.slow
 def test_a_damaged_history_is_refused(overcentre, tmp_path):
     import h5py
 

@@ -22,6 +22,7 @@ SPACING = {"ds_max": 0.05, "angle": math.radians(5.0)}
 # -- the points ----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k_j", [1e3, 1e6])
 def test_every_point_balances_the_forces_written_by_hand(k_j):
     branch = branch_of("overcentre", k_j=k_j)
@@ -121,6 +122,7 @@ def slide(stiffness):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", [19.99, 20.0, 20.001, 20.01])
 def test_a_first_step_without_points_inside_may_be_refused(stiffness):
     """K = 20 has a cusp at z = 0; the curve is known in closed form on both sides of it."""

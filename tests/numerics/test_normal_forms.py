@@ -47,6 +47,7 @@ def test_null_vectors_of_a_fold_are_normalised_to_unit_length_and_unit_product()
     assert v == pytest.approx(PLANE[:, 0] / np.linalg.norm(PLANE[:, 0]), abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cubic", [-1.0, 2.0])
 def test_cusp_coefficient_is_that_of_the_normal_form_over_the_squared_length_of_its_vector(cubic):
     def g(z, p):

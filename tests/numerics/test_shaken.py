@@ -56,6 +56,7 @@ def test_what_belongs_to_the_fast_part_exists() -> None:
     assert set(FAST) <= JOBS.keys()
 
 
+@pytest.mark.slow
 def test_a_signature_tells_a_lost_point_from_a_moved_one() -> None:
     plain = unshaken("ab at B = 18")
     lost = {name: value for name, value in plain.items() if "LP2" not in name}

@@ -34,6 +34,7 @@ def test_an_isola_is_followed_exactly_once(radius):
     assert abs(np.sum(np.sign(np.diff(turning)))) == len(branch) - 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("radius", [1.0, 0.1, 1e-3])
 def test_an_isola_has_its_two_folds_and_nothing_else(radius):
     found = [(p.kind, p["la"]) for p in circle_branch(radius).special_points]

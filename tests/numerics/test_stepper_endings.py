@@ -102,6 +102,7 @@ def test_an_interrupted_curve_keeps_its_points_and_says_so():
 # -- reproducibility and cost ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("problem", "name", "bounds"),
     [(ab(18.0), "D", (0.0, 0.6)), (brusselator(), "B", (0.5, 8.0)), (cusp(), "mu", (-1.0, 1.0))],

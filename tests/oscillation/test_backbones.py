@@ -58,6 +58,7 @@ def test_the_backbone_of_a_lightly_damped_response_is_its_nonlinear_mode(damping
     assert a.max() > 1.7
 
 
+@pytest.mark.slow
 def test_a_response_that_does_not_resonate_has_no_backbone():
     response = mc.continue_response(damped_duffing(0.1), "frequency", (0.05, 0.1), forcing={"F": mc.Harmonic(0.1)})
     with pytest.raises(mc.StartError, match="follow it through its resonance"):

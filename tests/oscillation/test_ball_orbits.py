@@ -120,6 +120,7 @@ def test_a_free_body_that_turns_far_moves_as_scipy_says():
     assert velocity == pytest.approx(orbit.velocities[0], abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_rod_that_nothing_keeps_from_spinning_is_not_driven_round():
     loose = rod(True, joint='damping="0.3"')
     forcing = {"F": mc.Harmonic(1.0), "G": mc.Harmonic(1.0, phase=-math.pi / 2)}
@@ -160,6 +161,7 @@ def test_a_cycle_is_found_from_the_end_of_a_history():
     assert mc.find_cycle(lively(True), history).period == pytest.approx(known, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_files_keep_poses_and_charts(tmp_path):
     loaded, curve = mc.load(cycles(True).save(tmp_path / "cycles.h5")), cycles(True)
     assert np.array_equal(loaded.states, curve.states)
@@ -170,6 +172,7 @@ def test_files_keep_poses_and_charts(tmp_path):
     assert again.at(push=0.35)[0]["period"] == pytest.approx(curve.at(push=0.35)[0]["period"], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_motion_begins_on_an_orbit_and_stays_there():
     orbit = swung(True).orbit
     history = mc.simulate(orbit, duration=orbit.period, timestep=1e-4)
@@ -232,6 +235,7 @@ def test_a_curve_ends_where_the_spring_of_a_ball_joint_turns_over():
     assert "the spring of hip turns over" in curve.ends[-1][1]
 
 
+@pytest.mark.slow
 def test_a_weight_pushed_round_an_ellipse_comes_back_though_nothing_is_observed():
     """The motion is that of MuJoCo's accelerations: q' = q (0, w) / 2 with w in the body's own axes."""
     text = """<mujoco><worldbody><site name="w"/><body><joint type="ball" damping="0.1" stiffness="0.3"/>

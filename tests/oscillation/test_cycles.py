@@ -39,6 +39,7 @@ def test_the_multiplier_of_the_free_period_is_one_along_the_curve(reaction):
     assert np.abs(np.array(trivial) - 1.0).max() < 1e-7
 
 
+@pytest.mark.slow
 def test_extremes_along_a_cycle_are_those_known():
     cycles = mc.continue_cycles(hopf_of_the_reaction(), bounds=(1.9, 2.1))
     assert cycles["x.max"][-1] == pytest.approx(1.4731202977360016, abs=1e-7)
@@ -79,12 +80,14 @@ def test_cycles_of_the_bautin_form_have_the_exact_multipliers(folded):
         assert own.real == pytest.approx(math.exp(4.0 * math.pi * r2 * (1.0 - 2.0 * r2)), rel=1e-7)
 
 
+@pytest.mark.slow
 def test_cycles_begin_at_hopf_points_only():
     branch = mc.continue_equilibria(brusselator(), "B", (1.5, 6.0), zeros={"y": 3.0})
     with pytest.raises(mc.MjcontError, match="limit cycles begin at points of kind HB"):
         mc.continue_cycles(branch.of_kind("UZ")[0])
 
 
+@pytest.mark.slow
 def test_wrong_options_are_named():
     hopf = hopf_of_the_reaction()
     with pytest.raises(mc.ParameterError, match="degree must be a whole number from 2 to 9"):

@@ -125,6 +125,7 @@ def test_a_pendulum_that_hardly_gets_over_the_top_ends_its_curve_by_its_period()
     assert curve.special_points == ()
 
 
+@pytest.mark.slow
 def test_a_hinge_with_a_motor_goes_round_like_the_pendulum():
     pendulum = mc.Mechanism.from_xml("""
     <mujoco model="pendulum">
@@ -142,6 +143,7 @@ def test_a_hinge_with_a_motor_goes_round_like_the_pendulum():
     assert holds(curve.orbits[0], 3.1709867875448494, math.exp(-0.5 * 3.1709867875448494))
 
 
+@pytest.mark.slow
 def test_a_tank_of_reactions_has_the_known_cycle():
     assert holds(mc.find_cycle(reactions()), 6.260697425666006, 0.008544929379561864, 0.0)
 

@@ -96,6 +96,7 @@ def test_a_pendulum_on_its_head_grows_and_decays_without_swinging(tmp_path):
     assert "2 of them grow; the equilibrium is unstable" in str(modes)
 
 
+@pytest.mark.slow
 def test_flutter_is_named_with_its_frequency_at_the_hopf_load():
     rods = mc.Mechanism.from_xml("ziegler_rods")
     hopf = mc.continue_equilibria(rods, "P", bounds=(1.4, 2.2), start={"P": 1.4}).point("HB1")

@@ -63,6 +63,7 @@ def test_a_pendulum_without_damping_has_no_limit_cycle():
         mc.find_cycle(free, state=[0.5])
 
 
+@pytest.mark.slow
 def test_a_motion_that_comes_to_rest_has_no_cycle():
     with pytest.raises(mc.StartError, match="comes to rest"):
         mc.find_cycle(brusselator(), {"B": 1.2}, state=[1.1, 1.3])
@@ -89,12 +90,14 @@ def test_what_cycles_begin_at_is_named():
         mc.continue_cycles(3)
 
 
+@pytest.mark.slow
 def test_an_orbit_is_its_own_start():
     response = mc.continue_response(duffing(), "w", (0.8, 0.9))
     with pytest.raises(mc.MjcontError, match="is its own start"):
         mc.continue_response(response[0], "w", (0.8, 0.9), frequency=0.1)
 
 
+@pytest.mark.slow
 def test_an_interrupt_keeps_the_orbits():
     def stop(count, special):
         if count == 5:
@@ -105,6 +108,7 @@ def test_an_interrupt_keeps_the_orbits():
     assert len(curve) >= 4
 
 
+@pytest.mark.slow
 def test_a_users_own_frequency_keeps_its_name():
     def f(u, p):
         r2 = u[0] ** 2 + u[1] ** 2

@@ -31,6 +31,7 @@ def test_phase_volume_shrinks_as_damping_says(resonance):
         assert np.prod(orbit.multipliers).real == pytest.approx(math.exp(-0.1 * orbit.period), abs=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("w", "amplitude"), [(2.0, 0.2001093421488693), (1.8, 0.43432210090831125), (2.2, 0.4646700920740304)]
 )

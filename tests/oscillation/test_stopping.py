@@ -31,6 +31,7 @@ def test_progress_counts_orbits_and_names_what_is_found():
     assert len(curve) >= len(counts)
 
 
+@pytest.mark.slow
 def test_an_interrupt_keeps_the_orbits_reached(tmp_path):
     curve = mc.continue_response(linear(), "w", (0.5, 2.0), progress=interrupting(5), **QUICK)
     assert curve.interrupted
@@ -63,6 +64,7 @@ def test_an_interrupt_inside_the_users_function_keeps_the_orbits_reached():
     assert len(curve) >= 6
 
 
+@pytest.mark.slow
 def test_a_stop_sees_the_orbit_and_ends_the_curve():
     def large(point):
         return "large enough" if point["u[0].max"] > 0.5 else None

@@ -61,6 +61,7 @@ def test_a_small_harmonic_input_gives_the_response_that_it_says(name, start, dri
         assert abs(first - linear[output][0]) < 1e-6 * gain
 
 
+@pytest.mark.slow
 def test_an_unstable_rest_is_named_and_drawn_dashed(tmp_path):
     overcentre = mc.Mechanism.from_xml("overcentre")
     branch = mc.continue_equilibria(overcentre, "F", bounds=(-50, 50), start={"F": 50.0})

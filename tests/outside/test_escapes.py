@@ -35,6 +35,7 @@ def test_inspect_writes_out_what_would_command_a_terminal(pendulum_xml, tmp_path
     assert r"ev\u202eil" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["$b_$", "a$b$c", "new\nline", "x" * 300, r"\frac{", "日本"])
 def test_any_name_can_label_an_axis(tmp_path: Path, name: str) -> None:
     figure, ax = new_figure()

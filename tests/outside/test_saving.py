@@ -203,6 +203,7 @@ def test_what_another_process_is_writing_is_left_alone(tmp_path: Path) -> None:
     assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == {"a.txt": b"slow", "b.txt": b"x"}
 
 
+@pytest.mark.slow
 def test_many_processes_may_write_one_file(tmp_path: Path) -> None:
     write = "for i in range(50): write_file(sys.argv[1], 'x' * 5000)"
     code = f"import sys\nfrom mjcont.outside.saving import write_file\n{write}"

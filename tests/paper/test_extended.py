@@ -42,6 +42,7 @@ def runs(out) -> list[str]:
     return sorted((out / "runs.txt").read_text().split())
 
 
+@pytest.mark.slow
 def test_the_extended_report_has_the_studies_after_the_figures(scripts, here, tmp_path):
     out = tmp_path / "out"
     result = report(out, extended=True, say=quiet)

@@ -131,6 +131,7 @@ def test_the_swept_load_takes_the_lightly_damped_mechanism_overcentre_where_it_d
     assert script(2).passages(motion)[:, 1] == pytest.approx(reference_passages(0.01, 75.0), abs=3e-3)
 
 
+@pytest.mark.slow
 def test_a_slower_load_gets_ahead_of_the_mechanism_by_less_with_the_power_two_thirds_of_its_rate(heavy):
     fast, slow = (script(2).overshoot(heavy, "LP2", rate) for rate in (0.84, 0.084))
     assert 0.62 < np.log10(fast / slow) < 0.70

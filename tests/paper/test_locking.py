@@ -119,6 +119,7 @@ def test_the_locked_gear_stays_down_to_fp2_and_then_lets_go(slowly):
     assert release.after["theta_ov"] < np.radians(-45.0)
 
 
+@pytest.mark.slow
 def test_500_newton_unlock_the_gear_at_the_new_fp1_and_it_stays_unlocked_without(gear):
     legs = [{"F_ret": 4.6e5, "F_ul": 0.0}, {"F_ret": 4.142e5, "F_ul": -500.0}, {"F_ret": 4.3e5}, {"F_ul": 0.0},
             {"F_ret": 1e5}]

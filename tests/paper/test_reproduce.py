@@ -105,6 +105,7 @@ def test_a_failure_of_an_earlier_run_still_counts(scripts, tmp_path, script):
     assert "1 of 2 findings hold in 1 figures; 1 failed, with findings unknown: figure 2." in report
 
 
+@pytest.mark.slow
 def test_figures_that_all_succeed_have_a_plain_headline(scripts, here, tmp_path):
     reproduce([1], tmp_path, say=quiet)
     assert "\n1 of 2 findings hold in 1 figures. mjcont" in (tmp_path / "report.md").read_text()
@@ -118,6 +119,7 @@ def test_the_command_ends_with_a_status_of_its_own_where_a_figure_failed(scripts
     assert cli.main(["reproduce", "1", "-o", str(tmp_path)]) == 0
 
 
+@pytest.mark.slow
 def test_a_failed_figure_is_drawn_again_the_next_time(scripts, here, tmp_path):
     (scripts / "fig01.py").write_text(BAD)
     assert reproduce([1], tmp_path, say=quiet).failed == [1]
@@ -148,6 +150,7 @@ def test_reports_hold_findings_and_pictures_and_are_the_same_every_time(scripts,
     assert "| it is blue | red | does not hold |" in markdown
 
 
+@pytest.mark.slow
 def test_a_report_names_the_model_where_a_figure_has_several(scripts, here, tmp_path):
     (scripts / "fig01.py").write_text(GOOD.replace('"1 < 2", True)', '"1 < 2", True, "first & second")'))
     result = reproduce([1], tmp_path, say=quiet)

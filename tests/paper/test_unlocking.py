@@ -49,6 +49,7 @@ def test_the_load_factor_is_the_acceleration_of_the_climb_that_the_gravity_angle
     assert TIMES[gust.velocity > 0][-1] == pytest.approx(5.0 + 2 * 107.0 / 90.0, abs=0.05)
 
 
+@pytest.mark.slow
 def test_turbulence_has_the_variance_and_correlation_of_its_spectrum():
     times = np.arange(0.0, 20_000.0, 0.1)
     gust = _gusts.dryden(times, 1.5, 150.0, 3, AIRCRAFT)
@@ -70,6 +71,7 @@ def test_in_still_air_the_force_measure_unlocks_beyond_the_cusp_only(stowed):
     assert list(runs.outcomes == 0) == [False, False, True, True]
 
 
+@pytest.mark.slow
 def test_the_position_measure_locks_again_unless_the_unlock_force_is_kept(stowed):
     position = _unlocking.unlock_runs(stowed, "position", np.array([CUSP * 1.2]))
     scheduled = _unlocking.unlock_runs(stowed, "scheduled", np.array([CUSP * 1.2]))
@@ -77,6 +79,7 @@ def test_the_position_measure_locks_again_unless_the_unlock_force_is_kept(stowed
     assert _unlocking.OUTCOMES[scheduled.outcomes[0]] == "unlocked"
 
 
+@pytest.mark.slow
 def test_both_actuators_follow_one_sequence(stowed):
     (history,) = _unlocking.unlock_runs(stowed, "force", np.array([500.0])).histories
     pulling = history["F_ul"] < -1.0

@@ -21,6 +21,7 @@ def old(name: str) -> Any:
         return mc.load(WRITTEN / name)
 
 
+@pytest.mark.slow
 def test_a_branch_of_a_vector_field_holds_points_that_satisfy_its_equations():
     branch = old("vector_field_branch.h5")
     u, v = branch.states.T
@@ -37,6 +38,7 @@ def test_a_hopf_locus_of_a_vector_field_holds_points_of_trace_zero():
     assert locus["B"] * u == pytest.approx(5.0 + locus["D"] * np.exp(v), rel=1e-8)
 
 
+@pytest.mark.slow
 def test_a_branch_of_a_mechanism_comes_with_its_model_its_declared_parameter_and_its_certificate():
     branch = old("mechanism_branch.h5")
     turn = branch["hip"]
@@ -47,12 +49,14 @@ def test_a_branch_of_a_mechanism_comes_with_its_model_its_declared_parameter_and
     assert branch.at(P=5.0)[0].stability == "stable"
 
 
+@pytest.mark.slow
 def test_a_fold_locus_of_a_mechanism_passes_the_fold_known_beforehand():
     locus = old("mechanism_fold_locus.h5")
     assert locus.kind == "LP locus"
     assert locus["F"][locus.start_index] == pytest.approx(SECOND_FOLD, abs=1e-8)
 
 
+@pytest.mark.slow
 def test_a_load_path_keeps_its_jump_at_the_fold():
     path = old("load_path.h5")
     (jump,) = path.jumps
@@ -61,12 +65,14 @@ def test_a_load_path_keeps_its_jump_at_the_fold():
     assert path["F"][[0, -1]] == pytest.approx([17.0, 15.0])
 
 
+@pytest.mark.slow
 def test_a_history_keeps_its_inputs():
     history = old("history.h5")
     assert history["P"] == pytest.approx(2.0 * history["time"])
     assert history.problem.parameters["k"].value == 10.0
 
 
+@pytest.mark.slow
 def test_a_sweep_keeps_its_cases():
     table = old("sweep.h5")
     order = np.argsort(table["k_sp"])

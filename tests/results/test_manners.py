@@ -90,6 +90,7 @@ def test_completion_of_a_model_shows_what_a_user_needs(truss: mc.Branch) -> None
 # -- drawn ----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", DRAWN)
 def test_every_result_draws_itself_and_no_texts_meet(results: dict[str, Any], kind: str) -> None:
     figure = mc.plot(results[kind]).figure
@@ -189,6 +190,7 @@ def test_transfer_functions_come_back_from_a_file(results: dict[str, Any], tmp_p
     assert (str(loaded), loaded.stable, loaded.units) == (str(found), found.stable, dict(found.units))
 
 
+@pytest.mark.slow
 def test_modes_at_a_special_point_of_a_vector_field_need_the_field_again(tmp_path: Any) -> None:
     field = mc.VectorField(lambda u, p: p["mu"] + u - u**3, [-1.5], {"mu": -1.0}, names=["x"])
     fold = mc.continue_equilibria(field, "mu", bounds=(-1, 1)).point("LP1")

@@ -63,6 +63,7 @@ def test_both_columns_survive_a_file(arm, tmp_path):
     np.testing.assert_array_equal(loaded["joint:elbow"], branch["joint:elbow"])
 
 
+@pytest.mark.slow
 def test_the_bare_name_means_the_joint_where_the_control_does_not_vary(arm):
     branch = mc.continue_equilibria(arm, "wrist", start={"elbow": 0.3}, zeros={"joint:wrist": 0.1})
     np.testing.assert_allclose(branch["elbow"], 0.1, atol=1e-12)
@@ -73,6 +74,7 @@ def test_the_bare_name_means_the_joint_where_the_control_does_not_vary(arm):
     assert [word for word, _ in limited.ends] == ["stopped", "stopped"]
 
 
+@pytest.mark.slow
 def test_a_region_of_a_search_is_one_of_joints(arm):
     inside = mc.find_equilibria(arm, {"elbow": 0.6}, region={"elbow": (0.1, 0.3), "joint:wrist": (-1, 1)}, starts=8)
     assert len(inside) == 1

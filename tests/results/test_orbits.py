@@ -26,6 +26,7 @@ def test_an_orbit_reads_its_period_frequency_and_exponents():
     assert orbit.error < 1e-8
 
 
+@pytest.mark.slow
 def test_observables_along_an_orbit_are_those_of_its_states():
     orbit = flutter()[-1].orbit
     assert orbit["q1"] == pytest.approx(orbit.states[:, 0], abs=1e-12)
@@ -35,6 +36,7 @@ def test_observables_along_an_orbit_are_those_of_its_states():
     assert orbit.rate("q1", between) == pytest.approx([orbit.at(t)[2] for t in between], abs=1e-7)
 
 
+@pytest.mark.slow
 def test_harmonics_of_a_harmonic_are_one():
     row = resonance()[0]
     response = 1.0 / (1.0 - 0.25 + 0.1j)
@@ -51,6 +53,7 @@ def test_a_wrong_observable_is_named_with_those_there_are():
         _ = flutter()[0].orbit["hip"]
 
 
+@pytest.mark.slow
 def test_a_history_of_a_response_has_its_input():
     overcentre = mc.Mechanism.from_xml("overcentre")
     curve = mc.continue_response(
@@ -130,6 +133,7 @@ def test_csv_has_units_degrees_and_labels(tmp_path):
 # -- files ----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("curve", [flutter, resonance], ids=["mechanism", "field"])
 def test_orbits_come_back_to_the_bit(curve, tmp_path):
     curve = curve()
@@ -142,6 +146,7 @@ def test_orbits_come_back_to_the_bit(curve, tmp_path):
             assert np.array_equal(one, other)
 
 
+@pytest.mark.slow
 def test_a_loaded_field_needs_its_problem_only_to_compute(tmp_path):
     loaded = mc.load(resonance().save(tmp_path / "curve.h5"))
     history = loaded[3].orbit.history()
@@ -152,6 +157,7 @@ def test_a_loaded_field_needs_its_problem_only_to_compute(tmp_path):
     assert point["x.amplitude"] == pytest.approx(5.0, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_loaded_mechanism_goes_on(tmp_path):
     loaded = mc.load(flutter().save(tmp_path / "curve.h5"))
     row = loaded[-1]
@@ -159,6 +165,7 @@ def test_a_loaded_mechanism_goes_on(tmp_path):
     assert more["P"][0] == pytest.approx(row["P"])
 
 
+@pytest.mark.slow
 def test_names_are_data(tmp_path):
     names = ("a/b [1] .x", "θ\n.max")
     curve = mc.continue_response(linear(names), "w", (0.5, 0.6), max_points=2, mesh=5)
@@ -179,6 +186,7 @@ def test_a_damaged_orbit_is_refused_with_its_place(tmp_path):
         mc.load(path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", [("intervals", [1]), ("mesh", [0.0, 1.0])], ids=["intervals", "mesh"])
 def test_arrays_that_do_not_fit_are_refused(tmp_path, change):
     path = tmp_path / "curve.h5"

@@ -27,6 +27,7 @@ def expected():
     return branch_of("overcentre").eigenvalues
 
 
+@pytest.mark.slow
 def test_eigenvalues_are_computed_once_where_they_are_read(branch, expected):
     before = branch.problem.evaluations
     assert np.array_equal(branch.eigenvalues, expected)
@@ -52,12 +53,14 @@ def test_the_summary_special_points_copies_and_saving_compute_nothing(branch, tm
     assert changed.spectra.missing()
 
 
+@pytest.mark.slow
 def test_a_loaded_branch_computes_what_nobody_had_read(branch, expected, tmp_path):
     loaded = mc.load(branch.save(tmp_path / "branch.h5"))
     assert loaded.problem.evaluations == 0
     assert np.array_equal(loaded.eigenvalues, expected)
 
 
+@pytest.mark.slow
 def test_eigenvalues_read_before_a_branch_is_saved_are_in_its_file(branch, expected, tmp_path):
     assert not np.isnan(branch.eigenvalues).any()
     loaded = mc.load(branch.save(tmp_path / "branch.h5"))
@@ -99,6 +102,7 @@ TWO_MASSES = """<mujoco><option gravity="0 0 0"/>
 </mujoco>"""
 
 
+@pytest.mark.slow
 def test_a_motion_that_was_held_is_held_where_eigenvalues_are_read_after_loading(tmp_path):
     branch = mc.continue_equilibria(mc.Mechanism.from_xml(TWO_MASSES), "T", bounds=(-1.0, 1.0))
     waiting = replace(branch, spectra=Spectra([branch.spectra.row(0), *[None] * (len(branch) - 1)]))

@@ -46,6 +46,7 @@ def test_every_column_comes_back_to_the_bit_with_unit_and_role(branch, saved):
         assert (loaded.columns[name].unit, loaded.columns[name].role) == (column.unit, column.role)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("field", ["states", "eigenvalues", "stability", "n_unstable", "residuals"])
 def test_every_array_comes_back_to_the_bit(branch, saved, field):
     found, expected = getattr(mc.load(saved), field), getattr(branch, field)
@@ -53,6 +54,7 @@ def test_every_array_comes_back_to_the_bit(branch, saved, field):
     assert found.dtype == expected.dtype
 
 
+@pytest.mark.slow
 def test_eigenvalues_that_a_row_does_not_have_come_back_as_missing(branch, tmp_path):
     eigenvalues = np.array(branch.eigenvalues)
     eigenvalues[3, 5:] = complex(math.nan, math.nan)
@@ -92,6 +94,7 @@ def test_the_summary_of_a_loaded_branch_is_the_same(branch, saved):
     assert str(mc.load(saved)) == str(branch)
 
 
+@pytest.mark.slow
 def test_a_loaded_branch_finds_its_points_at_a_value_without_anything_else(branch, saved):
     found = [p.state for p in mc.load(saved).at(F=25.0)]
     expected = [p.state for p in branch.at(F=25.0)]
@@ -243,6 +246,7 @@ def test_a_text_file_is_an_error(tmp_path):
         mc.load(path)
 
 
+@pytest.mark.slow
 def test_an_hdf5_file_of_another_program_is_an_error(tmp_path):
     path = tmp_path / "other.h5"
     with h5py.File(path, "w") as f:
@@ -251,6 +255,7 @@ def test_an_hdf5_file_of_another_program_is_an_error(tmp_path):
         mc.load(path)
 
 
+@pytest.mark.slow
 def test_a_file_of_a_newer_version_is_an_error_that_says_to_upgrade(saved):
     edit(saved, lambda f: f.attrs.__setitem__("format_version", 99))
     with pytest.raises(

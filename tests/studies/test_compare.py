@@ -59,6 +59,7 @@ def test_results_are_compared_like_the_studies_that_made_them(folder, tmp_path):
     assert sum(shifts(stored.curves[0])) == pytest.approx(0.0, abs=1e-4 * max(shifts(stored.curves[0])))
 
 
+@pytest.mark.slow
 def test_a_study_is_compared_with_a_result(folder, tmp_path):
     found = compare(folder / "old.toml", folder / "out/new/equilibria.h5", tmp_path)
     assert [c.name for c in found.curves] == ["equilibria"]
@@ -71,6 +72,7 @@ def test_results_need_not_have_one_name(folder, tmp_path):
     assert len(compare(folder / "out/old/equilibria.h5", renamed, tmp_path).curves[0].points) == 2
 
 
+@pytest.mark.slow
 def test_curves_of_another_kind_or_in_another_parameter_have_nothing_in_common(folder, tmp_path):
     old = folder / "out/old/equilibria.h5"
     branch = mc.load(old)

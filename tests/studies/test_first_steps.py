@@ -80,6 +80,7 @@ def test_a_study_that_is_there_is_not_replaced(tmp_path, capsys):
     assert "is there already" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_model_that_nothing_moves_says_so(tmp_path, capsys):
     path = tmp_path / "rigid.xml"
     path.write_text(RIGID, encoding="utf-8")

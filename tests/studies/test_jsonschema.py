@@ -55,6 +55,7 @@ def test_studies_that_ship_are_valid(path: Path, validator: Any) -> None:
     validator.validate(tomllib.loads(path.read_text(encoding="utf-8")))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["overcentre", "von_mises_truss"])
 def test_first_studies_are_valid(name: str, validator: Any, tmp_path: Path) -> None:
     from mjcont import Mechanism

@@ -122,6 +122,7 @@ def test_an_interrupt_stores_the_points_so_far_and_ends_the_run(tmp_path: Path) 
     assert len(stored) == len(branch) == 8
 
 
+@pytest.mark.slow
 def test_a_run_tells_each_result_and_where_its_curve_is(tmp_path: Path) -> None:
     class Listening(Reporter):
         started_: ClassVar[list[object]] = []

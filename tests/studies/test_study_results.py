@@ -65,6 +65,7 @@ def test_a_diagram_starts_from_every_equilibrium_that_a_search_found(tmp_path: P
     np.testing.assert_allclose(lengths**2 * (1.25 - lengths), 1.25 * 0.35**2, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_locus_and_a_map_of_a_fold_agree_with_its_closed_form(tmp_path: Path) -> None:
     _, locus, grid = run(
         tmp_path,
@@ -95,6 +96,7 @@ def test_a_locus_and_a_map_of_a_fold_agree_with_its_closed_form(tmp_path: Path) 
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == names
 
 
+@pytest.mark.slow
 def test_sensitivity_and_worst_case_of_a_fold_are_those_of_its_closed_form(tmp_path: Path) -> None:
     _, found, worst = run(
         tmp_path,
@@ -125,6 +127,7 @@ def test_sensitivity_and_worst_case_of_a_fold_are_those_of_its_closed_form(tmp_p
     assert (tmp_path / "out" / "influence.png").stat().st_size > 5000
 
 
+@pytest.mark.slow
 def test_a_history_begins_at_a_point_and_follows_its_inputs(tmp_path: Path) -> None:
     branch, history = run(
         tmp_path,
@@ -261,6 +264,7 @@ def test_an_interrupted_search_is_stored_and_ends_the_run(
     assert len(rows(tmp_path / "out" / "found.csv")) >= 1
 
 
+@pytest.mark.slow
 def test_branches_start_from_points_of_earlier_results(tmp_path: Path) -> None:
     found, branch = run(
         tmp_path,

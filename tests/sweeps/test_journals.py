@@ -26,6 +26,7 @@ def test_a_journal_cut_anywhere_is_resumed_to_the_same_table(tmp_path: Path) -> 
         assert sorted(r["case"] for r in records(folder)) == list(range(12))
 
 
+@pytest.mark.slow
 def test_a_sweep_that_is_done_computes_nothing_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked = study(tmp_path)
     first = mc.sweep(asked, out=tmp_path, workers=1)
@@ -33,6 +34,7 @@ def test_a_sweep_that_is_done_computes_nothing_again(tmp_path: Path, monkeypatch
     np.testing.assert_array_equal(mc.sweep(asked, out=tmp_path, workers=1)["fold.F"], first["fold.F"])
 
 
+@pytest.mark.slow
 def test_another_sweep_in_the_same_folder_is_refused(tmp_path: Path) -> None:
     mc.sweep(study(tmp_path), out=tmp_path, limit=2, workers=1)
     with pytest.raises(mc.ResultFileError, match=r"another sweep \(latin hypercube of 2 .* differ in design"):
@@ -52,6 +54,7 @@ def test_a_sweep_with_its_limit_raised_goes_on_to_what_it_gives_at_once(tmp_path
     assert same(tmp_path / "more", tmp_path / "once")
 
 
+@pytest.mark.slow
 def test_a_sweep_with_its_limit_lowered_has_the_first_cases(tmp_path: Path) -> None:
     asked = study(tmp_path)
     whole = mc.sweep(asked, out=tmp_path, limit=5, workers=1)
@@ -68,6 +71,7 @@ def test_a_design_that_can_be_extended_goes_on_to_more_cases(tmp_path: Path) -> 
     assert same(tmp_path / "more", tmp_path / "once")
 
 
+@pytest.mark.slow
 def test_a_line_that_is_not_as_it_was_written_is_named(tmp_path: Path) -> None:
     asked = study(tmp_path)
     mc.sweep(asked, out=tmp_path, limit=4, workers=1)
@@ -86,6 +90,7 @@ def without_checksums(journal: Path) -> None:
     journal.write_text("".join(json.dumps({k: v for k, v in d.items() if k != "sha256"}) + "\n" for d in lines))
 
 
+@pytest.mark.slow
 def test_a_journal_without_checksums_goes_on_with_a_note(tmp_path: Path) -> None:
     asked = study(tmp_path)
     first = mc.sweep(asked, out=tmp_path, limit=3, workers=1)
@@ -102,6 +107,7 @@ def test_a_file_that_is_no_journal_is_left_as_it_is(tmp_path: Path) -> None:
     assert (tmp_path / "sweep.jsonl").read_text() == "my own notes"
 
 
+@pytest.mark.slow
 def test_a_comment_in_the_study_makes_no_other_sweep(tmp_path: Path) -> None:
     mc.sweep(study(tmp_path), out=tmp_path, limit=2, workers=1)
     assert len(mc.sweep(study(tmp_path, STUDY + "# a remark\n"), out=tmp_path, limit=2, workers=1)) == 2

@@ -114,6 +114,7 @@ def test_every_case_is_the_fold_traced_afresh_at_its_parameters(tmp_path: Path) 
     np.testing.assert_allclose(table["fold.F"], followed["fold.F"][:2], atol=1e-7)
 
 
+@pytest.mark.slow
 def test_points_of_ones_own_are_swept_without_a_study(tmp_path: Path) -> None:
     mechanism = mc.Mechanism.from_xml("overcentre")
     branch = mc.continue_equilibria(mechanism, "F", bounds=(-50, 50), start={"F": 50.0})
@@ -124,6 +125,7 @@ def test_points_of_ones_own_are_swept_without_a_study(tmp_path: Path) -> None:
     assert "upper.F: nominal" in str(table)
 
 
+@pytest.mark.slow
 def test_a_case_that_fails_is_listed_with_its_sentence_and_the_rest_is_unharmed(tmp_path: Path) -> None:
     text = STUDY.replace("cases = 12\nseed = 3", 'design = "list"').split("k_j = {")[0]
     table = mc.sweep(study(tmp_path, text + "k_j = { values = [900, -5, 1100] }\n"), out=tmp_path, workers=1)
