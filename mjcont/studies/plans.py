@@ -159,8 +159,16 @@ def check_study(path: str | Path, *, friction: str | None = None) -> tuple[Study
     A line reads `FILE: table[i].key: what is wrong, with the valid choices`.
     """
     path = located(path)
-    study, problems = _read(path, friction)
-    lines = (str(p).replace(f"study '{path}': ", f"{path}: ", 1) for p in problems)
+    return _told(path, *_read(path, friction))
+
+
+def check_data(data: Mapping[str, Any], file: str | Path) -> tuple[Study | None, list[str]]:
+    """Return what `check_study` does for the tables of a study; `file` is what messages call it, and where it lies."""
+    return _told(file, *_checked(data, Path(file), None, Context(None)))
+
+
+def _told(file: str | Path, study: Study | None, problems: Sequence[StudyError]) -> tuple[Study | None, list[str]]:
+    lines = (str(p).replace(f"study '{file}': ", f"{file}: ", 1) for p in problems)
     return study, list(dict.fromkeys(" ".join(line.split()) for line in lines))
 
 
@@ -183,9 +191,15 @@ def _read(path: str | Path, friction: str | None) -> tuple[Study | None, list[St
     context = Context(None)
     data: dict[str, Any] = {}
     with context.noting():
-        data = _parse(Path(path))
+        data = parse(Path(path))
     if context.problems:
         return None, context.problems
+    return _checked(data, path, friction, context)
+
+
+def _checked(
+    data: Mapping[str, Any], path: Path, friction: str | None, context: Context
+) -> tuple[Study | None, list[StudyError]]:
     root = Table(str(path), data)
     check_keys(root, TOP, ("model",), context)
     with context.noting():
@@ -193,7 +207,7 @@ def _read(path: str | Path, friction: str | None) -> tuple[Study | None, list[St
         if version != STUDY_VERSION:
             raise root.error("version", f"this mjcont reads version {STUDY_VERSION}, the file has {version}")
     with context.noting():
-        context.mechanism = _load_model(root, Path(path).parent, friction) if "model" in data else None
+        context.mechanism = _load_model(root, path.parent, friction) if "model" in data else None
     if context.mechanism is not None:
         _prepare(root, context)
     study = _assemble(root, context, friction)
@@ -283,7 +297,14 @@ def _claim_branches(named: Sequence[Table], root: Table, context: Context) -> No
                 raise table.error("name", f"'{name}' is what the table of the study's sweep is called")
 
 
-def _parse(path: Path) -> dict[str, Any]:
+def parse(path: Path) -> dict[str, Any]:
+    """Return the tables of a study file.
+
+    Raises
+    ------
+    StudyError
+        If there is no such file, or it is no TOML.
+    """
     if not path.is_file():
         what = "is a folder, not a file" if path.is_dir() else "no such file"
         names = shipped_studies()
