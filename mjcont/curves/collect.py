@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
@@ -34,14 +34,16 @@ from mjcont.results.spectra import Late, Spectra
 class Found:
     """A point as it is found, while its curve is still being followed: no label yet, and no kind unless special.
 
-    Observables are those of special points only; of others there is the state, from which they can be read. The state
-    is None where there is none to tell: of starts, and of orbits. `direction` counts the directions begun before.
+    Observables are those of special points only; of others they can be read from the state and the values of all
+    parameters. The state is None where there is none to tell: of starts, and of orbits. `direction` counts the
+    directions followed before.
     """
 
     kind: str
     parameters: Mapping[str, float]
     observables: Mapping[str, float]
     state: Array | None = None
+    values: Values = field(default_factory=dict)
     direction: int = 0
 
 
@@ -63,11 +65,11 @@ def _found(system: System, item: CurvePoint | Located, direction: int) -> Found:
     values = system.values(item.y if isinstance(item, CurvePoint) else item.point.y)
     free = {n: values[n] for n in system.names}
     if isinstance(item, CurvePoint):
-        return Found("", free, {}, item.x, direction)
+        return Found("", free, {}, item.x, values, direction)
     problem = model_of(system.problem)
     measured = problem.measure(item.point.x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
-    return Found(item.kind, free, observables, item.point.x, direction)
+    return Found(item.kind, free, observables, item.point.x, values, direction)
 
 
 def reporter(system: System, progress: Progress | None) -> Callable[[Item], None] | None:

@@ -13,9 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from mjcont.arguments import checked
-from mjcont.errors import StudyError, did_you_mean, unknown_name
+from mjcont.errors import ResultFileError, StudyError, did_you_mean, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.loading import shipped_folder, shipped_models
+from mjcont.results.files import RESULT_SUFFIXES
+from mjcont.results.formats import load
 from mjcont.results.quantities import FRICTION
 from mjcont.studies import forms as f
 from mjcont.studies.answers import ANSWER, AnswerPlan, read_answer
@@ -35,7 +37,7 @@ DECLARE = f.table({"targets": {**f.TEXTS, "minItems": 1}, "unit": f.TEXT, "bound
                   text="A parameter that the model does not declare itself.")
 TOP: Mapping[str, f.Form] = {
     "version": {"const": STUDY_VERSION, "description": "Version of this schema."},
-    "model": {**f.TEXT, "description": "An MJCF file, relative to the study, or a model that ships with mjcont."},
+    "model": {**f.TEXT, "description": "An MJCF file or a result file, relative to the study, or a model that ships."},
     "friction": {**f.choice(*FRICTION), "description": "Leave friction out of equilibria, or refuse models with it."},
     "parameters": {**f.VALUES, "description": "Values for every result, by the parameters' names."},
     "declare": {"type": "object", "additionalProperties": DECLARE},
@@ -327,9 +329,25 @@ def _load_model(root: Table, folder: Path, friction: str | None) -> Mechanism:
     friction = friction or asked
     beside = folder / name
     with about(root, "model"):
+        if beside.suffix.lower() in RESULT_SUFFIXES:
+            return model_in(beside)
         if not beside.is_file() and name in shipped_models():
             return Mechanism.from_xml(name, friction=friction)
         return Mechanism.from_xml(beside, friction=friction)
+
+
+def model_in(path: Path) -> Mechanism:
+    """Return the mechanism that a result file carries.
+
+    Raises
+    ------
+    ResultFileError
+        If the file cannot be read, or carries none.
+    """
+    problem = getattr(load(path), "problem", None)
+    if not isinstance(problem, Mechanism):
+        raise ResultFileError(f"result file '{path}' carries no model: name the MJCF file itself")
+    return problem
 
 
 def _declare(declare: Table, name: str, mechanism: Mechanism) -> None:
