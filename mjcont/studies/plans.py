@@ -91,7 +91,7 @@ class PlotPlan:
 
 @dataclass(frozen=True, slots=True)
 class Study:
-    """A checked study file with its model."""
+    """A checked study file with its model; `common` are the values for all results."""
 
     file: str
     mechanism: Mechanism = field(repr=False)
@@ -101,6 +101,7 @@ class Study:
     sweep: SweepPlan | None = None
     friction: str = FRICTION[0]
     answer: AnswerPlan | None = None
+    common: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def plans(self) -> tuple[BranchPlan | Task, ...]:
@@ -266,7 +267,8 @@ def _assemble(root: Table, context: Context, friction: str | None) -> Study:
         if context.mechanism is not None:
             sweep = read_sweep(root, context.mechanism, tuple(branches))
     answer = read_answer(root, context)
-    return Study(root.file, context.mechanism, tuple(branches), tuple(plots), tuple(tasks), sweep, asked, answer)
+    made = tuple(branches), tuple(plots), tuple(tasks)
+    return Study(root.file, context.mechanism, *made, sweep, asked, answer, dict(context.common))
 
 
 def _tables(root: Table, key: str, context: Context) -> Sequence[Table]:
