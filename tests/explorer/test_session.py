@@ -20,7 +20,7 @@ start = { F = 50 }
 """
 
 
-SLOW = {"point": "rest:LP1", "parameter": "k_sp", "bounds": [9, 11], "settings": {"ds_max": 1e-3, "ds": 1e-3}}
+SLOW = {"point": "rest:LP1", "parameter": "k_sp", "bounds": [9, 11], "settings": {"ds_max": 6e-3, "ds": 6e-3}}
 
 
 @pytest.fixture
