@@ -1,0 +1,5 @@
+"""The explorer: the mechanism beside its diagram, in a page of one file that needs no server.
+
+What the browser draws is a document (`document`), plain data with a version: the shapes of a model (`scene`), curves
+with the pose of every row, and the words beside them. A page (`page`) is that document with the script that draws it.
+"""
