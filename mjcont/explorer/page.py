@@ -1,0 +1,116 @@
+"""A document as one file of HTML that opens anywhere, offline: data, style, script, and a policy that allows no more.
+
+The browser refuses any script but the one whose hash the page states, and every request; `<` is written out in the
+data, so that no text of a model ends it.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from mjcont.errors import MjcontError
+from mjcont.explorer.document import document_of
+from mjcont.outside.escapes import for_page
+from mjcont.outside.saving import checked_path, write_file
+
+_ICON = "data:,"
+_HEAD = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="generator" content="mjcont">
+<meta name="color-scheme" content="light dark">
+<link rel="icon" href="{icon}">
+<title>{title}</title>
+<style>{style}</style>
+</head>
+<body>
+<div id="explorer"><noscript>A script draws this page, and scripts are switched off.</noscript></div>
+<script type="application/json" id="document">{document}</script>
+<script type="module">{script}</script>
+</body>
+</html>
+"""
+
+
+@cache
+def bundle() -> tuple[str, str]:
+    """Return the script and the style sheet of the page, as they were built."""
+    folder = resources.files("mjcont.explorer") / "web" / "dist"
+    script, style = ((folder / name).read_text(encoding="utf-8") for name in ("explorer.js", "explorer.css"))
+    return script, style
+
+
+def policy(connect: Sequence[str] = ()) -> str:
+    """Return the content security policy: nothing but the page's own script and style, and sockets to `connect`."""
+    script, style = (_hash(text) for text in bundle())
+    parts = ["default-src 'none'", f"script-src {script}", f"style-src {style}", "img-src data: blob:"]
+    return "; ".join([*parts, *([f"connect-src {' '.join(connect)}"] if connect else []), "base-uri 'none'",
+                      "form-action 'none'"])
+
+
+def _hash(text: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
+
+
+def page(document: Mapping[str, Any] | None, connect: Sequence[str] = ()) -> str:
+    """Return a document as a page; without one, a page that asks its server for it, at one of `connect`."""
+    script, style = bundle()
+    data = json.dumps(document, allow_nan=False, separators=(",", ":"), ensure_ascii=False)
+    title = f"{document['title']} - mjcont" if document else "mjcont"
+    return _HEAD.format(
+        policy=for_page(policy(connect)), icon=_ICON, title=for_page(title), style=style, script=script,
+        document=data.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"),
+    )
+
+
+def to_html(path: str | Path, *results: Any, title: str = "", study: str = "") -> Path:
+    """Write results as one page that opens in a browser without a server, and return its path.
+
+    The page shows the mechanism beside its diagram: dragging along a branch moves it.
+
+    Parameters
+    ----------
+    path : str or Path
+        Ends with ".html".
+    *results : Branch, CycleBranch, LoadPath, History, Sensitivities, SpecialMap, BarrierCurve, or a Diagram
+        The first one's model is shown.
+    title : str
+        Default the model's name.
+    study : str
+        The text of a study that makes them, for the page to hand out.
+
+    Raises
+    ------
+    MjcontError
+        If there is no result, one of another kind, or the file cannot be written.
+    """
+    named: dict[str, Any] = {}
+    for result in results:
+        named[_name(result, named)] = result
+    return write_page(path, named, title=title, study=study)
+
+
+def write_page(path: str | Path, results: Mapping[str, Any], *, title: str = "", study: str = "") -> Path:
+    """Write results by name as one page, and return its path; the rest is as for `to_html`."""
+    place = checked_path(path)
+    if place.suffix.lower() not in (".html", ".htm"):
+        raise MjcontError(f"a page is written as .html, got '{place.name}'")
+    return write_file(place, page(document_of(results, title=title, study=study)))
+
+
+def _name(result: Any, taken: Mapping[str, Any]) -> str:
+    """Return what a result is called on a page: its kind, with a number where there are several."""
+    words = {"CycleBranch": "orbits", "LoadPath": "load path", "History": "history", "SpecialMap": "map",
+             "Sensitivities": "sensitivities", "BarrierCurve": "barriers", "Diagram": "branch"}
+    word = words.get(type(result).__name__, "") or str(getattr(result, "kind", "result"))
+    return next(n for i in range(1, len(taken) + 2) if (n := word if i == 1 else f"{word} {i}") not in taken)

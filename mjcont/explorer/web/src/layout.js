@@ -1,0 +1,48 @@
+// The panels and where they stand: a grid on a wide screen, one below the other on a phone.
+
+import { h } from "./dom.js";
+import { pictureButton } from "./download.js";
+
+/** Return a panel: {element, body, tools, title(text), show(there)}. */
+export function panel(name, title, area) {
+  const heading = h("h2", { class: "panel-title" }, title), tools = h("div", { class: "tools" }), body = h("div", { class: "panel-body" });
+  const head = h("header", { class: "panel-head" }, heading, tools);
+  const element = h("section", { class: `panel ${area}`, "aria-label": title, "data-panel": name }, head, body);
+  const made = {
+    name, element, body, tools,
+    title(text) {
+      if (heading.textContent === text) return;
+      heading.textContent = text;
+      element.setAttribute("aria-label", text);
+    },
+    show(there) {
+      element.hidden = !there;
+    },
+  };
+  return made;
+}
+
+/** Give a panel the button that hands out its picture. */
+export function withPicture(made, picture) {
+  made.element.querySelector(".panel-head").append(pictureButton(made, picture));
+}
+
+/** Build the page's frame into `root`. */
+export function frame(root, title) {
+  const actions = h("div", { class: "actions" });
+  const status = h("div", { class: "status", role: "status" });
+  const panels = {
+    mechanism: panel("mechanism", "Mechanism", "large"), diagram: panel("diagram", "Diagram", "large"), locus: panel("locus", "Two parameters", "small"),
+    spectrum: panel("spectrum", "Eigenvalues", "small"), motion: panel("motion", "Motion", "small"), tornado: panel("tornado", "Sensitivities", "small"),
+  };
+  const player = h("div", { class: "player" });
+  panels.mechanism.element.append(player);
+  const { mechanism, diagram, ...others } = panels;
+  const side = h("aside", { class: "side", "aria-label": "Selection" });
+  const bar = h("header", { class: "bar-top" }, h("h1", {}, h("span", { class: "brand" }, "mjcont"), h("span", { class: "model" }, title)), status, actions);
+  const small = h("div", { class: "row-small" }, ...Object.values(others).map((p) => p.element));
+  const large = h("div", { class: "row-large" }, mechanism.element, diagram.element);
+  root.classList.add("mjx");
+  root.replaceChildren(bar, h("main", { class: "stage" }, h("div", { class: "panels" }, large, small), side));
+  return { panels, side, player, actions, status };
+}
