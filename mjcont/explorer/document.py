@@ -69,16 +69,24 @@ def document_of(
     curves: list[Curve] = []
     for name, result in flat.items():
         curves.append(curve_of(result, name, stage, given.get(name) or _parent(result, flat), spectra=spectra))
+    return assembled(stage, curves, title=title or next((c["model"] for c in curves if c["model"]), next(iter(flat))),
+                     study=study)
+
+
+def assembled(
+    stage: Stage, curves: Sequence[Curve], *, title: str, study: str, values: Mapping[str, float] | None = None
+) -> dict[str, Any]:
+    """Return curves as a document; `values` are those of the model's parameters, default the first curve's."""
     return {
         "format": FORMAT,
         "version": VERSION,
-        "title": title or next((c["model"] for c in curves if c["model"]), next(iter(flat))),
+        "title": title,
         "made": provenance(None),
         "scene": scene_of(stage),
         "quantities": quantities_of(curves),
         "study": study,
-        "sliders": sliders_of(stage.problem, curves),
-        "curves": curves,
+        "sliders": sliders_of(stage.problem, curves, values),
+        "curves": list(curves),
     }
 
 
@@ -141,8 +149,10 @@ def quantity(name: str, unit: str, role: str, largest: float) -> dict[str, Any]:
             "scale": factor * larger, "role": role, "si": unit}
 
 
-def sliders_of(problem: Model | None, curves: Sequence[Curve]) -> list[dict[str, Any]]:
-    """Return the parameters of a model that have a range, at the values of the first curve."""
+def sliders_of(
+    problem: Model | None, curves: Sequence[Curve], values: Mapping[str, float] | None = None
+) -> list[dict[str, Any]]:
+    """Return the parameters of a model that have a range, at the values given, or those of the first curve."""
     if problem is None:
         return []
     fixed: dict[str, float] = next((c["fixed"] for c in curves if c["fixed"]), {})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -54,6 +55,11 @@ def opened(source: str) -> Opened:
     if not path.is_file() and source in shipped_models():
         return Opened({"model": source}, mechanism=Mechanism.from_xml(source))
     return Opened({"model": str(path.resolve())}, mechanism=Mechanism.from_xml(path))
+
+
+def reopened(study: str) -> Opened:
+    """Return what goes on with the text of a session's study."""
+    return Opened(tomllib.loads(study))
 
 
 def _of_study(given: Path) -> Opened:

@@ -101,10 +101,12 @@ class Session:
         opened, self._opened = self._opened, None
         if opened is None:
             return
+        self.stop.clear()
         if not opened.computes:
             pass
         elif opened.mechanism is None:
-            self.now = self._recomputed(self.now, computed)
+            with self._busy("the study"):
+                self.now = self._recomputed(self.now, computed)
         else:
             with self._busy("looking for a parameter that moves it"):
                 table = first_table(opened.mechanism)
@@ -128,6 +130,7 @@ class Session:
             If the study's checks refuse the table, or its result cannot be computed; the study is what it was.
         """
         now = self.now
+        self.stop.clear()
         made = {"name": self._free_name(table), **table_of(table, args, now.results, self.mechanism, now.common)}
         tables = {**now.tables, table: [*now.tables.get(table, []), made]}
         study, notes = self._checked(tables)
@@ -157,10 +160,12 @@ class Session:
         low, high = check_bounds(self.mechanism, name, None)
         if not low <= value <= high:
             raise BoundsError(f"{name} = {value:g} lies outside its range {low:g} .. {high:g}")
+        self.stop.clear()
         before, click = self.now, f"{name} = {value:g}"
         tables = {**before.tables, "parameters": {**before.tables.get("parameters", {}), name: float(value)}}
         common = {**before.common, name: float(value)}
-        after = self._recomputed(replace(before, tables=tables, common=common, click=click))
+        with self._busy(click):
+            after = self._recomputed(replace(before, tables=tables, common=common, click=click))
         if not (self._past and before.click.startswith(f"{name} = ")):  # a slider that goes on is one click
             self._past.append(before)
         self.now = after
@@ -235,7 +240,7 @@ class Session:
             done |= found
             if computed is not None:
                 computed(curves(found))
-            if interrupted(result):
+            if interrupted(result) or self.stop.is_set():
                 if computed is None:
                     raise MjcontError("stopped")
                 break
@@ -250,8 +255,7 @@ class Session:
     @contextmanager
     def _busy(self, what: str) -> Iterator[None]:
         """Tell that something runs, and let errors speak of the table instead of a file that is none."""
-        self.running = what
-        self.stop.clear()
+        before, self.running = self.running, what
         self.tell_state()
         try:
             yield
@@ -260,7 +264,8 @@ class Session:
         except MjcontError as error:
             raise type(error)(_plain(str(error))) from error
         finally:
-            self.running = ""
+            self.running = before
+            self.tell_state()
 
 
 def curves(results: Mapping[str, Any]) -> Results:

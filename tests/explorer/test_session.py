@@ -97,6 +97,12 @@ def test_a_result_without_a_model_is_refused(tmp_path):
         opened(str(tmp_path / "field.h5"))
 
 
+@pytest.mark.parametrize("source", ["nothing.xml", "nothing.toml", "nothing.h5", "nothing"])
+def test_what_is_not_there_is_named(source):
+    with pytest.raises(mc.MjcontError, match=rf"{source}'?: no such file|'{source}'"):
+        opened(source)
+
+
 def test_a_study_with_a_mistake_is_refused_with_its_first_problem(study):
     study.write_text(STUDY.replace('"F"', '"G"'), encoding="utf-8")
     with pytest.raises(mc.StudyError, match=r"branch\[0\].parameter: unknown parameter 'G'"):
