@@ -39,6 +39,7 @@ def document_of(
     title: str = "",
     study: str = "",
     parents: Mapping[str, str] | None = None,
+    problem: Model | None = None,
     spectra: bool = True,
 ) -> dict[str, Any]:
     """Return results by name as a document.
@@ -53,18 +54,20 @@ def document_of(
         TOML that reproduces them.
     parents : mapping of name to name, optional
         Which curve each began on; default the first branch of the same model for what begins on one.
+    problem : Model, optional
+        Whose shapes are shown, also where there is no result yet; default the first result's.
     spectra : bool
         Whether eigenvalues that are not known are computed.
 
     Raises
     ------
     MjcontError
-        If there is no result, or the explorer shows none of its kind.
+        If there is neither result nor problem, or the explorer shows none of its kind.
     """
     flat = dict(_flat(results))
-    if not flat:
+    if not flat and problem is None:
         raise MjcontError("a page needs at least one result")
-    stage = Stage(next((p for p in map(problem_of, flat.values()) if p is not None), None))
+    stage = Stage(problem or next((p for p in map(problem_of, flat.values()) if p is not None), None))
     given = parents or {}
     curves: list[Curve] = []
     for name, result in flat.items():
@@ -72,7 +75,7 @@ def document_of(
     return {
         "format": FORMAT,
         "version": VERSION,
-        "title": title or next((c["model"] for c in curves if c["model"]), next(iter(flat))),
+        "title": title or next((c["model"] for c in curves if c["model"]), getattr(stage.problem, "name", "")),
         "made": provenance(None),
         "scene": scene_of(stage),
         "quantities": quantities_of(curves),
@@ -111,7 +114,8 @@ def scene_of(stage: Stage) -> dict[str, Any] | None:
         return None
     found = stage.scene.described()
     meshes = [{"vertices": packed(m.vertices, "f4"), "faces": indices(m.faces)} for m in found["meshes"]]
-    return {**plain({k: v for k, v in found.items() if k != "meshes"}), "meshes": meshes}
+    pose = {"bodies": packed(found["pose"].bodies, "f4"), "tendons": packed(found["pose"].tendons, "f4")}
+    return {**plain({k: v for k, v in found.items() if k not in ("meshes", "pose")}), "meshes": meshes, "pose": pose}
 
 
 def quantities_of(curves: Sequence[Curve]) -> dict[str, Any]:
