@@ -39,7 +39,6 @@ def document_of(
     title: str = "",
     study: str = "",
     parents: Mapping[str, str] | None = None,
-    problem: Model | None = None,
     spectra: bool = True,
 ) -> dict[str, Any]:
     """Return results by name as a document.
@@ -54,34 +53,40 @@ def document_of(
         TOML that reproduces them.
     parents : mapping of name to name, optional
         Which curve each began on; default the first branch of the same model for what begins on one.
-    problem : Model, optional
-        Whose shapes are shown, also where there is no result yet; default the first result's.
     spectra : bool
         Whether eigenvalues that are not known are computed.
 
     Raises
     ------
     MjcontError
-        If there is neither result nor problem, or the explorer shows none of its kind.
+        If there is no result, or the explorer shows none of its kind.
     """
     flat = dict(_flat(results))
-    if not flat and problem is None:
+    if not flat:
         raise MjcontError("a page needs at least one result")
-    stage = Stage(problem or next((p for p in map(problem_of, flat.values()) if p is not None), None))
+    stage = Stage(next((p for p in map(problem_of, flat.values()) if p is not None), None))
     given = parents or {}
     curves: list[Curve] = []
     for name, result in flat.items():
         curves.append(curve_of(result, name, stage, given.get(name) or _parent(result, flat), spectra=spectra))
+    return assembled(stage, curves, title=title or next((c["model"] for c in curves if c["model"]), next(iter(flat))),
+                     study=study)
+
+
+def assembled(
+    stage: Stage, curves: Sequence[Curve], *, title: str, study: str, values: Mapping[str, float] | None = None
+) -> dict[str, Any]:
+    """Return curves as a document; `values` are those of the model's parameters, default the first curve's."""
     return {
         "format": FORMAT,
         "version": VERSION,
-        "title": title or next((c["model"] for c in curves if c["model"]), getattr(stage.problem, "name", "")),
+        "title": title,
         "made": provenance(None),
         "scene": scene_of(stage),
         "quantities": quantities_of(curves),
         "study": study,
-        "sliders": sliders_of(stage.problem, curves),
-        "curves": curves,
+        "sliders": sliders_of(stage.problem, curves, values),
+        "curves": list(curves),
     }
 
 
@@ -145,8 +150,10 @@ def quantity(name: str, unit: str, role: str, largest: float) -> dict[str, Any]:
             "scale": factor * larger, "role": role, "si": unit}
 
 
-def sliders_of(problem: Model | None, curves: Sequence[Curve]) -> list[dict[str, Any]]:
-    """Return the parameters of a model that have a range, at the values of the first curve."""
+def sliders_of(
+    problem: Model | None, curves: Sequence[Curve], values: Mapping[str, float] | None = None
+) -> list[dict[str, Any]]:
+    """Return the parameters of a model that have a range, at the values given, or those of the first curve."""
     if problem is None:
         return []
     fixed: dict[str, float] = next((c["fixed"] for c in curves if c["fixed"]), {})
@@ -156,7 +163,7 @@ def sliders_of(problem: Model | None, curves: Sequence[Curve]) -> list[dict[str,
         low, high = max(p.bounds[0], p.hard_bounds[0]), min(p.bounds[1], p.hard_bounds[1])
         if p.kind == "switch" or not (math.isfinite(low) and math.isfinite(high) and low < high):
             continue
-        value = fixed.get(p.name, p.value)
+        value = (values or fixed).get(p.name, p.value)
         entry = quantity(p.name, p.unit, "parameter", max(abs(low), abs(high)) if p.unit != "rad" else 0.0)
         found.append({"name": p.name, "unit": p.unit, "value": value, "lower": low, "upper": high,
                       "shown": entry, "free": p.name in free})

@@ -20,7 +20,8 @@ export class Live {
     transport.on("progress", (event) => this.progress(event));
     transport.on("curve", (event) => this.arrived(event));
     transport.on("state", (event) => this.state(event));
-    transport.on("close", () => this.say("The session has ended. What is shown stays.", true));
+    for (const event of ["failed", "ended", "close"])
+      transport.on(event, (found) => this.say(found?.message || "The session has ended. What is shown stays.", true));
     this.offer();
     this.fillSliders();
   }
@@ -70,7 +71,7 @@ export class Live {
   async add(table, args) {
     const found = await this.ask("add", { table, args });
     if (!found) return;
-    const raws = found.curves ?? [found.curve], made = raws.map((raw) => this.store.put(raw, found.quantities));
+    const raws = [found.curve, ...(found.more ?? [])], made = raws.map((raw) => this.store.put(raw, found.quantities));
     const shownFirst = made.find((c) => c.rows);
     if (shownFirst) this.store.select(shownFirst, shownFirst.start ?? 0);
     if (shownFirst?.kind === "history" || shownFirst?.kind === "loadpath") this.store.tell("play");
