@@ -204,6 +204,7 @@ def _of_path(path: LoadPath, stage: Stage, spectra: bool) -> Curve:
         "fixed_units": dict(path.segments[0].branch.fixed_units),
         "free": {n: [min(v[n] for v in path.vertices), max(v[n] for v in path.vertices)] for n in path.names},
         "stability": packed(codes, "i1"),
+        "own": packed(at, "i4"),
         "specials": [_jumped(j, int(np.flatnonzero(at == j.index)[0])) for j in reversed(specials)],
         "ends": [{"status": path.status, "text": path.message}],
         **stage.poses(path.problem, states, values, list(path.names)),

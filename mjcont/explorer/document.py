@@ -119,7 +119,8 @@ def scene_of(stage: Stage) -> dict[str, Any] | None:
         return None
     found = stage.scene.described()
     meshes = [{"vertices": packed(m.vertices, "f4"), "faces": indices(m.faces)} for m in found["meshes"]]
-    return {**plain({k: v for k, v in found.items() if k != "meshes"}), "meshes": meshes}
+    pose = {"bodies": packed(found["pose"].bodies, "f4"), "tendons": packed(found["pose"].tendons, "f4")}
+    return {**plain({k: v for k, v in found.items() if k not in ("meshes", "pose")}), "meshes": meshes, "pose": pose}
 
 
 def quantities_of(curves: Sequence[Curve]) -> dict[str, Any]:
@@ -162,7 +163,7 @@ def sliders_of(
         low, high = max(p.bounds[0], p.hard_bounds[0]), min(p.bounds[1], p.hard_bounds[1])
         if p.kind == "switch" or not (math.isfinite(low) and math.isfinite(high) and low < high):
             continue
-        value = fixed.get(p.name, p.value)
+        value = (values or fixed).get(p.name, p.value)
         entry = quantity(p.name, p.unit, "parameter", max(abs(low), abs(high)) if p.unit != "rad" else 0.0)
         found.append({"name": p.name, "unit": p.unit, "value": value, "lower": low, "upper": high,
                       "shown": entry, "free": p.name in free})

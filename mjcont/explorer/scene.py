@@ -84,7 +84,7 @@ class Scene:
             if i == 0 or not still:
                 self._write(values[i])
             self._move(state)
-            bodies.append(np.hstack([self._data.xpos[1:], self._data.xquat[1:]]))
+            bodies.append(self._bodies())
             tendons.append(self._paths())
             if i == 0 or not still:
                 shapes.append(self._shapes())
@@ -106,6 +106,9 @@ class Scene:
             if self.model.ntendon:
                 mujoco.mj_comPos(self.model, self._data)
                 mujoco.mj_tendon(self.model, self._data)
+
+    def _bodies(self) -> Array:
+        return np.hstack([self._data.xpos[1:], self._data.xquat[1:]])
 
     def _shapes(self) -> Array:
         m, g = self.model, self._shown
@@ -135,6 +138,7 @@ class Scene:
             "meshes": lightened(meshes),
             "tendons": list(self._tendons()),
             "stick": [[int(m.body_parentid[b]) - 1, b - 1] for b in range(2, m.nbody) if m.body_parentid[b] > 0],
+            "pose": Poses(self._bodies(), None, self._paths()),
             **self._view(),
         }
 
@@ -206,7 +210,7 @@ def _sticks(m: mujoco.MjModel, shown: Array) -> Any:
         base = {"name": "", "body": b - 1, "rgba": list(GREY)}
         ball = {"type": "sphere", "pos": [0.0] * 3, "quat": [1.0, 0.0, 0.0, 0.0], "size": [1.4 * thick, 0.0, 0.0]}
         yield {**base, **ball}
-        for end in ends:
+        for end in np.unique(np.round(ends, 9), axis=0):
             length = float(np.linalg.norm(end))
             if length > 1e-9:
                 quat = np.zeros(4)

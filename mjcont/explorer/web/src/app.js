@@ -4,8 +4,10 @@ import { poseOf, poseOfOrbit } from "./data.js";
 import { Diagram } from "./diagram.js";
 import { h, icon } from "./dom.js";
 import { give } from "./download.js";
+import { Grid } from "./grid.js";
 import { listen } from "./keyboard.js";
 import { frame, withPicture } from "./layout.js";
+import { Live } from "./live.js";
 import { Locus } from "./locus.js";
 import { Mechanism, sceneOf } from "./mechanism.js";
 import { Motion } from "./motion.js";
@@ -26,14 +28,16 @@ export function mount(root, document, transport = null) {
   const mechanism = document.scene ? new Mechanism(panels.mechanism.body, sceneOf(document.scene), `The mechanism ${document.title}`) : null;
   panels.mechanism.show(Boolean(mechanism));
   const readout = new Readout(made.side, store), player = new Player(made.player, store);
-  const plots = { diagram: new Diagram(panels.diagram, store), locus: new Locus(panels.locus, store), spectrum: new Spectrum(panels.spectrum, store), motion: new Motion(panels.motion, store) };
+  const plots = { diagram: new Diagram(panels.diagram, store), locus: new Locus(panels.locus, store), spectrum: new Spectrum(panels.spectrum, store), motion: new Motion(panels.motion, store), grid: new Grid(panels.grid, store) };
   new Tornado(panels.tornado, store);
   made.side.append(...readout.after, versions(document));
   for (const [name, plot] of Object.entries(plots)) withPicture(panels[name], () => plot.plot.svg);
   if (mechanism) follow(mechanism, store, panels.mechanism);
   listen(root, store, player);
   buttons(made.actions, store);
-  const explorer = { store, mechanism, panels, plots, player, transport };
+  const live = transport ? new Live(made, store, transport) : null;
+  store.on("play", () => player.play());
+  const explorer = { store, mechanism, panels, plots, player, live };
   root.explorer = explorer;
   return explorer;
 }
@@ -42,19 +46,20 @@ export function mount(root, document, transport = null) {
 function follow(mechanism, store, panel) {
   const pose = () => {
     const { curve, row, sample } = store;
+    if (!curve?.rows) return mechanism.scene.pose;
     return curve?.orbit?.poses ? poseOfOrbit(curve, row, sample) : poseOf(curve, row);
   };
   const frameAll = () => {
     const poses = [];
     for (const curve of store.curves.filter((c) => c.poses))
       for (let k = 0, n = Math.min(FRAMED, curve.rows); k < n; k++) poses.push(poseOf(curve, Math.round((k * (curve.rows - 1)) / Math.max(n - 1, 1))));
-    mechanism.frame(poses);
+    mechanism.frame(poses.length ? poses : [mechanism.scene.pose]);
   };
   const here = () => mechanism.pose(pose());
   store.on("row", here);
   store.on("curve", here);
   store.on("curves", () => {
-    if (!mechanism.framed?.length) frameAll();
+    if (!mechanism.framed || mechanism.framed[0] === mechanism.scene.pose) frameAll();
     here();
   });
   frameAll();
@@ -65,7 +70,7 @@ function follow(mechanism, store, panel) {
 
 function buttons(host, store) {
   const { study, title } = store.document;
-  if (study) host.append(h("button", { class: "take study", onclick: () => give("study.toml", store.document.study, "text/plain") }, "study.toml"));
+  if (study && !store.live) host.append(h("button", { class: "take study", onclick: () => give("study.toml", store.document.study, "text/plain") }, "study.toml"));
   host.append(h("button", { class: "take theme", "aria-label": "Light or dark", title: "Light or dark", onclick: () => {
     const root = host.closest(".mjx"), dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
     root.dataset.theme = dark ? "light" : "dark";

@@ -26,7 +26,7 @@ export function curveOf(raw) {
   const columns = unpackEach(raw.columns);
   const first = Object.values(columns)[0];
   const curve = { ...raw, columns, rows: first ? first.length : 0 };
-  for (const key of ["poses", "shapes", "tendons", "eigenvalues", "stability", "unstable", "pieces"])
+  for (const key of ["poses", "shapes", "tendons", "eigenvalues", "stability", "unstable", "pieces", "own"])
     curve[key] = unpack(raw[key]);
   if (raw.orbit) {
     const { poses, shapes, tendons, rows, period } = raw.orbit;

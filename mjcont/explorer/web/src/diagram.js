@@ -1,12 +1,12 @@
 // The bifurcation diagram: branches by stability, orbits by their extremes, load paths as broad lines.
 
 import { columnOf, drawnColumns, JUMPING, runsOf, STABILITY } from "./data.js";
-import { h, select } from "./dom.js";
+import { h, s, select } from "./dom.js";
 import { Drag } from "./drag.js";
 import { Plot } from "./plot.js";
 import { plainName } from "./words.js";
 
-const KINDS = ["branch", "loadpath", "orbits", "map"];
+const KINDS = ["loadpath", "branch", "orbits"];
 
 /** Return the values of a column as shown. */
 export function scaled(values, quantity) {
@@ -49,16 +49,18 @@ export class Diagram {
     this.drag = new Drag(this.plot, () => this.lines, (curve, row) => store.select(curve, row));
     for (const event of ["curves", "curve"]) store.on(event, () => this.draw());
     store.on("row", () => this.mark());
+    store.on("partial", (curve) => this.grow(curve));
     this.choose();
   }
 
+  /** Return the curves in the order in which they are drawn: load paths lie below. */
   get curves() {
-    return this.store.curvesOf(...KINDS);
+    return KINDS.flatMap((kind) => this.store.curvesOf(kind));
   }
 
   /** Take the axes of the first curve, and offer all columns. */
   choose() {
-    const first = this.curves[0];
+    const first = this.store.curvesOf(...KINDS)[0];
     if (!first) return;
     this.axes ??= { x: first.axes[0], y: first.axes[1] };
     this.offer();
@@ -101,6 +103,19 @@ export class Diagram {
     this.panel.element.classList.toggle("jumps", jumps);
     this.mark();
     return undefined;
+  }
+
+  /** Draw what there is of a curve that is still being computed; null takes it away. */
+  grow(curve) {
+    const { x, y } = this.axes ?? {}, { quantities } = this.store, xs = curve?.columns[x], ys = curve?.columns[y];
+    const layer = this.plot.layers.over;
+    if (!xs || !ys || !this.plot.x) return layer.replaceChildren();
+    const ways = curve.columns.direction, parts = [];
+    for (let i = 0; i < xs.length; i++) {
+      const pen = i === 0 || (ways && ways[i] !== ways[i - 1]) ? "M" : "L";
+      parts.push(`${pen}${this.plot.x(xs[i] * (quantities[x]?.scale ?? 1)).toFixed(1)},${this.plot.y(ys[i] * (quantities[y]?.scale ?? 1)).toFixed(1)}`);
+    }
+    return layer.replaceChildren(s("path", { class: "line growing", d: parts.join("") }));
   }
 
   mark() {

@@ -33,7 +33,7 @@ export function frame(root, title) {
   const status = h("div", { class: "status", role: "status" });
   const panels = {
     mechanism: panel("mechanism", "Mechanism", "large"), diagram: panel("diagram", "Diagram", "large"), locus: panel("locus", "Two parameters", "small"),
-    spectrum: panel("spectrum", "Eigenvalues", "small"), motion: panel("motion", "Motion", "small"), tornado: panel("tornado", "Sensitivities", "small"),
+    spectrum: panel("spectrum", "Eigenvalues", "small"), motion: panel("motion", "Motion", "small"), tornado: panel("tornado", "Sensitivities", "small"), grid: panel("grid", "Map", "small"),
   };
   const player = h("div", { class: "player" });
   panels.mechanism.element.append(player);

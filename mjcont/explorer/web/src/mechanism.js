@@ -15,7 +15,8 @@ const SIDE = 0.3, ABOVE = 0.16;
 /** Return the scene of a document with its meshes decoded. */
 export function sceneOf(scene) {
   const meshes = scene.meshes.map((m) => ({ vertices: unpack(m.vertices), faces: unpack(m.faces) }));
-  return { ...scene, meshes };
+  const pose = { bodies: unpack(scene.pose.bodies), tendons: unpack(scene.pose.tendons), shapes: null };
+  return { ...scene, meshes, pose };
 }
 
 /** Return spheres [x, y, z, radius] round the shapes of poses: what a view must hold. */

@@ -9,7 +9,9 @@ import { extentOf, scaleFor, ticksOf } from "./scales.js";
 import { markerPath } from "./symbols.js";
 import { nameIntoSvg, tick } from "./words.js";
 
-const MARGIN = { left: 58, right: 14, top: 12, bottom: 44 };
+const MARGIN = { right: 14, top: 12, bottom: 44 };
+// beside the axis: the title, ticks, and what a digit takes
+const BESIDE = 34, DIGIT = 6.6;
 const MOST_INK = 1500;
 let clips = 0;
 
@@ -61,22 +63,34 @@ export class Plot {
   render() {
     const { width, height } = this.host.getBoundingClientRect();
     if (width < 40 || height < 40) return;
-    const inner = [MARGIN.left, MARGIN.top, width - MARGIN.right, height - MARGIN.bottom];
-    const [x0, y0, x1, y1] = inner, { x, y, lines } = this.content;
-    this.inner = inner;
+    const { x, y, lines } = this.content, ends = (axis, values) => axis.extent ?? extentOf(values);
+    const [y0, y1] = [MARGIN.top, height - MARGIN.bottom];
+    this.y = this.zoomed("rescaleY", scaleFor(ends(y, lines.map((l) => l.ys)), [y1, y0], y.kind));
+    const yTicks = ticksOf(this.y, Math.max(2, Math.floor((y1 - y0) / 44)));
+    const [x0, x1] = [BESIDE + DIGIT * Math.max(...yTicks.map((v) => tick(v).length), 2), width - MARGIN.right];
+    this.inner = [x0, y0, x1, y1];
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     for (const [key, value] of Object.entries({ x: x0, y: y0, width: x1 - x0, height: y1 - y0 })) this.box.setAttribute(key, value);
     this.zoom?.extent([[x0, y0], [x1, y1]]).translateExtent([[x0, y0], [x1, y1]]);
-    const ends = (axis, values) => axis.extent ?? extentOf(values);
     this.x = this.zoomed("rescaleX", scaleFor(ends(x, lines.map((l) => l.xs)), [x0, x1], x.kind));
-    this.y = this.zoomed("rescaleY", scaleFor(ends(y, lines.map((l) => l.ys)), [y1, y0], y.kind));
-    this.drawAxes(inner);
+    if (this.content.equal) this.equalise();
+    this.drawAxes(yTicks);
     this.drawLines();
     this.drawPoints();
     this.layers.over.textContent = "";
     this.content.over?.(this, this.layers.over);
     this.place(this.at);
     this.content.drawn?.(this);
+  }
+
+  /** Give both axes one scale: a circle is round. */
+  equalise() {
+    const [x0, y0, x1, y1] = this.inner, per = (scale, pixels) => (scale.domain()[1] - scale.domain()[0]) / pixels;
+    const size = Math.max(per(this.x, x1 - x0), per(this.y, y1 - y0));
+    for (const [scale, pixels] of [[this.x, x1 - x0], [this.y, y1 - y0]]) {
+      const [low, high] = scale.domain(), middle = (low + high) / 2;
+      scale.domain([middle - (size * pixels) / 2, middle + (size * pixels) / 2]);
+    }
   }
 
   zoomed(how, scale) {
@@ -86,9 +100,8 @@ export class Plot {
     return other;
   }
 
-  drawAxes([x0, y0, x1, y1]) {
-    const across = Math.max(2, Math.floor((x1 - x0) / 80)), up = Math.max(2, Math.floor((y1 - y0) / 44));
-    const xTicks = ticksOf(this.x, across), yTicks = ticksOf(this.y, up);
+  drawAxes(yTicks) {
+    const [x0, y0, x1, y1] = this.inner, xTicks = ticksOf(this.x, Math.max(2, Math.floor((x1 - x0) / 80)));
     const bottom = axisBottom(this.x).tickValues(xTicks).tickFormat(tick).tickSize(4).tickPadding(5);
     const left = axisLeft(this.y).tickValues(yTicks).tickFormat(tick).tickSize(4).tickPadding(5);
     select(this.layers.x).attr("transform", `translate(0,${y1})`).call(bottom);
@@ -96,7 +109,7 @@ export class Plot {
     spreadTicks(this.layers.x, (box) => [box.left, box.right], 6);
     spreadTicks(this.layers.y, (box) => [-box.bottom, -box.top], 0);
     for (const axis of [this.layers.x, this.layers.y])
-      for (const name of ["fill", "font-size", "font-family", "text-anchor"]) if (name !== "text-anchor") axis.removeAttribute(name);
+      for (const name of ["fill", "font-size", "font-family"]) axis.removeAttribute(name);
     const grid = [
       ...xTicks.map((v) => line(this.x(v), y0, this.x(v), y1, v === 0)),
       ...yTicks.map((v) => line(x0, this.y(v), x1, this.y(v), v === 0)),

@@ -26,7 +26,7 @@ export class Spectrum {
       extent: circle ? [-1.35, 1.35] : extentOfPart(curve?.eigenvalues, part),
     });
     const [x, y] = PARTS.map(axis);
-    this.plot.draw({ x, y, lines: [], over: (plot, layer) => this.dots(plot, layer) });
+    this.plot.draw({ x, y, lines: [], equal: circle, over: (plot, layer) => this.dots(plot, layer) });
   }
 
   mark() {
