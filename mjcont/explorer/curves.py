@@ -64,6 +64,11 @@ class Stage:
         return every
 
 
+def drawable(result: Any) -> bool:
+    """Whether the explorer shows results of its kind."""
+    return isinstance(result, tuple(_KINDS))
+
+
 def curve_of(
     result: Any, name: str, stage: Stage, parent: str | None = None, *, spectra: bool = True
 ) -> Curve:

@@ -1,7 +1,9 @@
 """Where requests meet a session: the operations by name, and results as the browser draws them.
 
-Operations: `document {}`, `add {table, args}` -> `{curve, more, quantities}`, `set {name, value}` and `undo {}` -> a
-document, `toml {}` and `page {}` -> text, `cancel {}`. No other; none of them takes a path.
+Operations: `document {}`, `set {name, value}` and `undo {}` give a document, `add {table, args}` gives `{curve, more,
+quantities, sliders}`, `toml {}` and `page {}` a text, `cancel {}` nothing. There is no other; none takes a path.
+
+Events: `ready`, `failed`, `ended`; `state`; `progress`; `curve`, with `partial` while it grows.
 """
 
 from __future__ import annotations
@@ -12,8 +14,8 @@ from typing import Any
 
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.explorer.arrays import packed
-from mjcont.explorer.curves import Curve, Stage, curve_of
-from mjcont.explorer.document import assembled, quantities_of
+from mjcont.explorer.curves import Curve, Stage, curve_of, drawable
+from mjcont.explorer.document import assembled, quantities_of, sliders_of
 from mjcont.explorer.opening import opened, reopened
 from mjcont.explorer.page import page
 from mjcont.explorer.session import Session, curves
@@ -101,9 +103,9 @@ class Desk:
 
     def _begin(self) -> None:
         def computed(results: Mapping[str, Any]) -> None:
-            every = [self._curve(name, result) for name, result in results.items()]
+            every = [self._curve(name, result) for name, result in results.items() if drawable(result)]
             for curve in every:
-                self._send(EVERYBODY, {"event": "curve", "curve": curve, "quantities": self._quantities(every)})
+                self._send(EVERYBODY, {"event": "curve", "curve": curve, **self._beside(every)})
 
         try:
             self._session.begin(computed)
@@ -118,7 +120,7 @@ class Desk:
     def _add(self, table: str, args: Mapping[str, Any]) -> dict[str, Any]:
         found = self._session.add(table, args)
         first, *more = (self._curve(name, result) for name, result in found.items())
-        return {"curve": first, "more": more, "quantities": self._quantities([])}
+        return {"curve": first, "more": more, **self._beside([])}
 
     def _set(self, name: str, value: float) -> dict[str, Any]:
         self._session.set(name, value)
@@ -134,7 +136,7 @@ class Desk:
     # -- what is drawn -----------------------------------------------------------------------------------------
 
     def _curves(self) -> list[Curve]:
-        now = curves(self._session.now.results)
+        now = {n: r for n, r in curves(self._session.now.results).items() if drawable(r)}
         self._drawn = {n: kept for n, kept in self._drawn.items() if n in now}
         return [self._curve(name, result) for name, result in now.items()]
 
@@ -146,8 +148,11 @@ class Desk:
             self._drawn[name] = known = result, curve_of(result, name, self._stage, parent)
         return known[1]
 
-    def _quantities(self, new: list[Curve]) -> dict[str, Any]:
-        return quantities_of([*self._curves(), *new])
+    def _beside(self, new: list[Curve]) -> dict[str, Any]:
+        """Return what curves change besides: how quantities are shown, and which parameters are held."""
+        every = [*self._curves(), *new]
+        return {"quantities": quantities_of(every),
+                "sliders": sliders_of(self._session.mechanism, every, self._session.now.common)}
 
 
 class _Telling:
