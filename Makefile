@@ -8,6 +8,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.stamp
 UNFINISHED := $(VENV)/.unfinished
 OUT := out/reproduce
+WEB := mjcont/explorer/web
 
 # Without PYTHON=, an environment that is there keeps the interpreter it was made with.
 ifeq ($(origin PYTHON),undefined)
@@ -21,7 +22,7 @@ FRESH := $(shell $(BIN)/python -c 'import pip' 2>/dev/null && $(STAMP_TEXT) | cm
 
 .DEFAULT_GOAL := help
 .PHONY: help env reproduce reproduce-fast test test-long test-fuzz test-shaken test-shaken-fast test-kernels \
-	test-faults thirdparty test-thirdparty bench clean FORCE
+	test-faults thirdparty test-thirdparty explorer-bundle explorer-check bench clean FORCE
 
 help: ## list these targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 # \2/p' $(MAKEFILE_LIST) | awk -F' # ' '{ printf "%-23s %s\n", $$1, $$2 }'
@@ -63,6 +64,12 @@ thirdparty: env ## download models from other packages, in .thirdparty
 
 test-thirdparty: thirdparty ## the tests on models that none of us wrote
 	$(BIN)/pytest -q -n auto -m thirdparty
+
+explorer-bundle: ## build the explorer's script and style sheet from its sources (needs Node 20 and npm; users do not)
+	cd $(WEB) && npm ci --silent && npm run --silent build
+
+explorer-check: ## whether the script and the style sheet in the package are what their sources build to
+	cd $(WEB) && npm ci --silent && npm run --silent check
 
 bench: env ## measure speed beside a floor and peers, in out/benchmarks.json (half an hour; QUICK=1: minutes)
 	$(BIN)/python -m benchmarks -o out/benchmarks.json $(if $(QUICK),--quick)

@@ -12,6 +12,8 @@ from mjcont.numerics.equations.problem import Array
 
 # triangles of all meshes of a page together: about 1 MB of it, and what a phone still turns smoothly
 MOST_FACES = 50_000
+# of a mesh, whatever the others take
+_FEWEST = 100
 # rows and columns of a height field
 _MOST_NODES = 64
 
@@ -46,19 +48,26 @@ def of_height_field(m: mujoco.MjModel, k: int) -> Mesh:
 
 
 def lightened(meshes: Sequence[Mesh], most: int = MOST_FACES) -> list[Mesh]:
-    """Return meshes that have `most` triangles together, each losing the same part of its own."""
-    every = sum(len(m.faces) for m in meshes)
-    return list(meshes) if every <= most else [_lighter(m, max(12, int(len(m.faces) * most / every))) for m in meshes]
+    """Return meshes that have at most `most` triangles together; of those that are light themselves nothing is lost."""
+    counts = np.array([len(m.faces) for m in meshes])
+    if counts.sum() <= most:
+        return list(meshes)
+    # the number of triangles that no mesh may exceed, such that they fit together
+    ordered, left = np.sort(counts), np.arange(len(counts), 0, -1)
+    room = most - np.concatenate([[0], np.cumsum(ordered)[:-1]])
+    first = int(np.count_nonzero(room >= ordered * left))
+    each = int(room[first] // left[first])
+    return [m if len(m.faces) <= each else _lighter(m, max(each, _FEWEST)) for m in meshes]
 
 
 def _lighter(mesh: Mesh, most: int) -> Mesh:
     """Return a mesh of at most so many triangles: the vertices in each cell of a grid made one, at their mean."""
-    cells = max(2, int(np.sqrt(most)))
-    while len(mesh.faces) > most and cells >= 2:
+    cells = max(4, int(4.0 * np.sqrt(most)))
+    while cells > 1:
         found = _clustered(mesh, cells)
-        if len(found.faces) <= most:
+        if 0 < len(found.faces) <= most:
             return found
-        cells = int(0.8 * cells)
+        cells = int(0.85 * cells)
     return mesh
 
 

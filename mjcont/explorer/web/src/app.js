@@ -32,6 +32,8 @@ export function mount(root, document, transport = null) {
   new Tornado(panels.tornado, store);
   made.side.append(...readout.after, versions(document));
   for (const [name, plot] of Object.entries(plots)) withPicture(panels[name], () => plot.plot.svg);
+  made.arrange();
+  store.on("curves", made.arrange);
   if (mechanism) follow(mechanism, store, panels.mechanism);
   listen(root, store, player);
   buttons(made.actions, store);

@@ -24,7 +24,7 @@ export function linesOf(curve, x, y, quantities, cls = "") {
   const runs = runsOf(curve).map((r) => ({ ...r, cls: r.code === null ? "" : STABILITY[r.code] }));
   return drawnColumns(curve, y).map((ys, k) => ({
     xs: scaled(xs, quantities[x]), ys: scaled(ys, quantities[y] ?? quantities[`${y}.max`]), runs, curve, cls: `${curve.kind} ${cls}`,
-    key: `${curve.id}/${k}`, turn: turning(ys, quantities[y]),
+    key: `${curve.id}/${k}`, snaps: true, turn: turning(ys, quantities[y]),
   }));
 }
 
@@ -46,11 +46,11 @@ export class Diagram {
   constructor(panel, store) {
     Object.assign(this, { panel, store, lines: [] });
     this.plot = new Plot(panel.body, "Bifurcation diagram");
-    this.drag = new Drag(this.plot, () => this.lines, (curve, row) => store.select(curve, row));
+    this.drag = new Drag(this.plot, () => this.lines, (curve, row) => store.select(curve, row), () => store.curve);
     for (const event of ["curves", "curve"]) store.on(event, () => this.draw());
     store.on("row", () => this.mark());
     store.on("partial", (curve) => this.grow(curve));
-    this.choose();
+    this.draw();
   }
 
   /** Return the curves in the order in which they are drawn: load paths lie below. */
@@ -88,10 +88,11 @@ export class Diagram {
   }
 
   draw() {
-    if (!this.axes) return this.choose();
-    const { x, y } = this.axes, { quantities, curve } = this.store, curves = this.curves;
+    const curves = this.curves;
     this.panel.show(curves.length > 0);
     if (!curves.length) return undefined;
+    if (!this.axes) return this.choose();
+    const { x, y } = this.axes, { quantities, curve } = this.store;
     if (curves.some((c) => Object.keys(c.columns).some((n) => !`,${this.offered},`.includes(`,${n},`)))) this.offer();
     const many = curves.length > 1;
     this.lines = curves.flatMap((c) => linesOf(c, x, y, quantities, many && c !== curve ? "other" : ""));

@@ -16,13 +16,13 @@ export function give(name, text, type) {
 export function svgText(svg, marker = null) {
   const copy = svg.cloneNode(true), own = [svg, ...svg.querySelectorAll("*")], made = [copy, ...copy.querySelectorAll("*")];
   for (const [i, element] of own.entries()) {
+    made[i].removeAttribute("class");
     if (!element.isConnected) continue;
     const style = getComputedStyle(element);
     for (const name of KEPT) {
       const value = style.getPropertyValue(name);
       if (value && value !== "none" || name === "fill" || name === "stroke") made[i].setAttribute(name, value);
     }
-    made[i].removeAttribute("class");
     made[i].removeAttribute("style");
   }
   if (marker) copy.append(marker);

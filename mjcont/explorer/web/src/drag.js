@@ -2,11 +2,13 @@
 // through a fold and not across it.
 
 const WINDOW = 60;
+// of places that a press may mean: how near, in pixels, a special point is, or the curve that is selected
+const NEAR = 9;
 
 export class Drag {
-  /** `lines()` returns lines with px, py and the `curve` that they show; `moved(curve, row)` is told. */
-  constructor(plot, lines, moved) {
-    Object.assign(this, { plot, lines, moved, held: null });
+  /** `lines()` returns lines with px, py and the `curve` that they show; `moved(curve, row)` is told, `selected()` asked. */
+  constructor(plot, lines, moved, selected = () => null) {
+    Object.assign(this, { plot, lines, moved, selected, held: null });
     const svg = plot.svg;
     svg.addEventListener("pointerdown", (e) => this.down(e));
     svg.addEventListener("pointermove", (e) => this.held && this.move(e));
@@ -16,16 +18,28 @@ export class Drag {
   down(event) {
     if (event.button !== 0 || event.shiftKey || !event.isPrimary) return;
     const [x, y] = this.plot.where(event);
-    let best = null;
-    for (const line of this.lines()) {
-      const found = nearest(line, x, y, 0, line.px.length - 1);
-      if (found && (!best || found.far < best.far)) best = { ...found, line };
-    }
+    const best = this.meant(x, y);
     if (!best) return;
     this.plot.svg.setPointerCapture(event.pointerId);
     this.held = { line: best.line, row: best.row, at: [x, y] };
     this.moved(best.line.curve, best.row);
     event.preventDefault();
+  }
+
+  /** Return the line and the row that a press means. */
+  meant(x, y) {
+    let best = null;
+    for (const line of this.lines()) {
+      const found = nearest(line, x, y, 0, line.px.length - 1);
+      if (!found) continue;
+      const own = line.curve === this.selected() && found.far < NEAR ** 2;
+      if (!best || own || (!best.own && found.far <= best.far)) best = { ...found, line, own };
+      if (own) break;
+    }
+    if (!best || !best.line.curve.specials) return best;
+    const far = (p) => (best.line.px[p.row] - x) ** 2 + (best.line.py[p.row] - y) ** 2;
+    const special = best.line.curve.specials.filter((p) => far(p) < NEAR ** 2).sort((a, b) => far(a) - far(b))[0];
+    return special && best.line.snaps ? { ...best, row: special.row } : best;
   }
 
   move(event) {

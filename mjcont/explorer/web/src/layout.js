@@ -44,5 +44,13 @@ export function frame(root, title) {
   const large = h("div", { class: "row-large" }, mechanism.element, diagram.element);
   root.classList.add("mjx");
   root.replaceChildren(bar, h("main", { class: "stage" }, h("div", { class: "panels" }, large, small), side));
-  return { panels, side, player, actions, status };
+  const arrange = () => {
+    const shown = ["diagram", "locus", "motion", "grid", "tornado"].map((n) => panels[n].element).find((p) => !p.hidden);
+    for (const { element } of Object.values(panels)) {
+      const row = element === shown || element === mechanism.element ? large : small;
+      if (element.parentElement !== row) row.append(element);
+    }
+    small.hidden = ![...small.children].some((p) => !p.hidden);
+  };
+  return { panels, side, player, actions, status, arrange };
 }

@@ -8,7 +8,7 @@ export class Locus {
   constructor(panel, store) {
     Object.assign(this, { panel, store, lines: [] });
     this.plot = new Plot(panel.body, "Curves of special points in two parameters");
-    this.drag = new Drag(this.plot, () => this.lines, (curve, row) => store.select(curve, row));
+    this.drag = new Drag(this.plot, () => this.lines, (curve, row) => store.select(curve, row), () => store.curve);
     for (const event of ["curves", "curve"]) store.on(event, () => this.draw());
     store.on("row", () => this.mark());
     this.draw();

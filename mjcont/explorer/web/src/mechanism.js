@@ -55,20 +55,16 @@ export class Mechanism {
     this.host = host;
     this.scene = scene;
     this.label = label;
-    try {
-      this.begin();
-    } catch {
-      host.querySelector("canvas")?.remove();
-      this.renderer = null;
-    }
-    if (!this.renderer) this.stick = new Stick(host, scene, label);
+    this.renderer = null;
+    const canvas = document.createElement("canvas"), context = canvas.getContext("webgl2", { antialias: true, alpha: true });
+    if (context) this.begin(canvas, context);
+    else this.stick = new Stick(host, scene, label);
     host.dataset.drawn = this.renderer ? "webgl" : "svg";
   }
 
-  begin() {
-    this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: false });
+  begin(canvas, context) {
+    this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    const canvas = this.renderer.domElement;
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", this.label);
     this.host.append(canvas);
