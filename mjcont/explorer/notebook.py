@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -46,13 +45,12 @@ def explore(source: Mechanism | Result | str | Path, file: str | Path | None = N
     if isinstance(source, Mechanism) and source.declared:
         raise MjcontError(f"{source.name} has parameters of this program's own, {', '.join(source.declared)}: give a "
                           "result, whose file carries them")
-    after: Callable[[], None] = lambda: None
-    if file is None:
-        folder = tempfile.TemporaryDirectory(prefix="mjcont-")
-        file, after = Path(folder.name) / ("model.xml" if isinstance(source, Mechanism) else "result.h5"), folder.cleanup
-    path = checked_path(file)
+    folder = tempfile.TemporaryDirectory(prefix="mjcont-") if file is None else None
+    if folder is not None:
+        file = Path(folder.name) / ("model.xml" if isinstance(source, Mechanism) else "result.h5")
+    path = checked_path(file or "")
     if isinstance(source, Mechanism):
         write_file(path, problem.mjcf)
     else:
         source.save(path)
-    return Explorer(str(path), after)
+    return Explorer(str(path), None if folder is None else folder.cleanup)

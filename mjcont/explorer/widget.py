@@ -32,7 +32,7 @@ class Explorer(anywidget.AnyWidget):
     _esm = traitlets.Unicode().tag(sync=True)
     _css = traitlets.Unicode().tag(sync=True)
 
-    def __init__(self, source: str, after: Callable[[], None] = lambda: None) -> None:
+    def __init__(self, source: str, after: Callable[[], None] | None = None) -> None:
         script, style = bundle()
         self._study = ""
         self._worker = Worker(source, _hearing(weakref.ref(self)))
@@ -73,6 +73,7 @@ def _hearing(owner: Callable[[], Explorer | None]) -> Hear:
     return hear
 
 
-def _ended(worker: Worker, after: Callable[[], None]) -> None:
+def _ended(worker: Worker, after: Callable[[], None] | None) -> None:
     worker.end()
-    after()
+    if after is not None:
+        after()
