@@ -171,12 +171,19 @@ def _spectra(branch: Branch, complete: bool) -> Any:
     return packed(np.stack([table.real, table.imag], axis=-1), "f4") if table.size else None
 
 
-def _special(p: SpecialPoint, row: int | None = None) -> Curve:
+def _special(p: SpecialPoint) -> Curve:
     values = {**p.parameters, **p.observables}
     return {
         "label": p.label, "kind": p.kind, "name": KINDS[p.kind].name if p.kind in KINDS else "",
-        "row": p.index if row is None else row, "values": plain(values), "text": str(p),
+        "row": p.index, "values": plain(values), "text": str(p), "facts": _facts(p),
     }
+
+
+def _facts(p: SpecialPoint) -> str:
+    """Return what a table of values does not say: coefficients, how well it is known, a note."""
+    told = [f"{k} = {v:.6g}" if isinstance(v, float) else f"{k} = {v}" for k, v in p.coefficients.items()]
+    told.append(f"located to {p.tolerance:.1e}" if p.converged else "not converged: a guess")
+    return ", ".join(told) + (f". {p.note}" if p.note else "")
 
 
 # -- motion ----------------------------------------------------------------------------------------------------
@@ -229,7 +236,7 @@ def _jumped(jump: Jump, row: int) -> Curve:
     values = {**jump.before.parameters, **jump.before.observables}
     name = KINDS[jump.kind].name if jump.kind in KINDS else "jump"
     return {"label": jump.label, "kind": jump.kind, "name": f"jump at {name}", "row": row, "values": plain(values),
-            "text": str(jump)}
+            "text": str(jump), "facts": str(jump).partition(": ")[2]}
 
 
 def _of_history(history: History, stage: Stage, spectra: bool) -> Curve:

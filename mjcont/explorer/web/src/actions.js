@@ -59,7 +59,7 @@ function ofRow(curve, row, special, choices) {
     id: "history", label: unstable ? "Simulate from beside this row" : "Simulate from here", table: "histories", fields: motion(unstable || Boolean(special)), args: ({ duration, nudge }) => ({ row: here, duration, nudge: nudge || null }),
   });
   if (choices.length)
-    found.push({ id: "branch", label: "Follow in another parameter", table: "branch", fields: [{ ...second(choices), label: "parameter" }], args: ({ parameter }) => ({ row: here, parameter }) });
+    found.push({ id: "branch", label: "Vary another parameter", table: "branch", fields: [{ ...second(choices), label: "parameter" }], args: ({ parameter }) => ({ row: here, parameter }) });
   return found;
 }
 

@@ -96,6 +96,7 @@ export class Diagram {
     if (curves.some((c) => Object.keys(c.columns).some((n) => !`,${this.offered},`.includes(`,${n},`)))) this.offer();
     const many = curves.length > 1;
     this.lines = curves.flatMap((c) => linesOf(c, x, y, quantities, many && c !== curve ? "other" : ""));
+    this.lines.push(...this.moving());
     const jumps = this.lines.some((l) => l.runs.some((r) => r.code === JUMPING));
     this.plot.draw({
       x: { quantity: quantities[x], name: x, kind: "log" }, y: { quantity: quantities[y] ?? quantities[`${y}.max`], name: y, kind: "log" },
@@ -117,6 +118,12 @@ export class Diagram {
       parts.push(`${pen}${this.plot.x(xs[i] * (quantities[x]?.scale ?? 1)).toFixed(1)},${this.plot.y(ys[i] * (quantities[y]?.scale ?? 1)).toFixed(1)}`);
     }
     return layer.replaceChildren(s("path", { class: "line growing", d: parts.join("") }));
+  }
+
+  /** Return the lines of a history that is selected: how a motion goes over the diagram. */
+  moving() {
+    const { curve, quantities } = this.store, { x, y } = this.axes;
+    return curve?.kind === "history" ? linesOf(curve, x, y, quantities, "moving") : [];
   }
 
   mark() {

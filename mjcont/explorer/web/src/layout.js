@@ -5,7 +5,7 @@ import { pictureButton } from "./download.js";
 
 /** Return a panel: {element, body, tools, title(text), show(there)}. */
 export function panel(name, title, area) {
-  const heading = h("h2", { class: "panel-title" }, title), tools = h("div", { class: "tools" }), body = h("div", { class: "panel-body" });
+  const heading = h("h2", { class: "panel-title" }, title), tools = h("div", { class: "tools" }), empty = h("p", { class: "empty", hidden: true }), body = h("div", { class: "panel-body" }, empty);
   const head = h("header", { class: "panel-head" }, heading, tools);
   const element = h("section", { class: `panel ${area}`, "aria-label": title, "data-panel": name }, head, body);
   const made = {
@@ -14,6 +14,11 @@ export function panel(name, title, area) {
       if (heading.textContent === text) return;
       heading.textContent = text;
       element.setAttribute("aria-label", text);
+    },
+    /** Say in words why there is nothing to see; nothing where there is. */
+    say(text) {
+      empty.textContent = text;
+      empty.hidden = !text;
     },
     show(there) {
       element.hidden = !there;

@@ -57,9 +57,10 @@ export class Live {
       const { document, curve, row, special } = this.store, now = actionsFor(document, curve, row, special).find((a) => a.id === action.id);
       if (now && !now.why) this.add(now.table, now.args(values));
     };
+    const named = (f) => (f.kind === "choice" ? "" : h("span", {}, f.label));
     const button = h("button", { class: "do", "data-action": action.id, disabled: Boolean(action.why), title: action.why || null, onclick: run }, action.label);
-    const fields = action.fields.map((f) => h("label", {}, h("span", {}, f.label), this.field(f, values), f.unit ? h("span", { class: "unit" }, f.unit) : ""));
-    return h("div", { class: "entry" }, button, fields.length ? h("div", { class: "fields" }, ...fields) : "", action.why ? h("p", { class: "why" }, action.why) : "");
+    const fields = action.fields.map((f) => h("label", {}, named(f), this.field(f, values), f.unit ? h("span", { class: "unit" }, f.unit) : ""));
+    return h("div", { class: `entry ${fields.length > 1 ? "wide" : ""}` }, button, ...fields, action.why ? h("p", { class: "why" }, action.why) : "");
   }
 
   field(f, values) {
@@ -188,7 +189,7 @@ export class Live {
     this.undo.title = undo ? `Undo ${undo}` : "";
     this.bar.hidden = this.stop.hidden = !running && !this.busy;
     this.notes = (notes ?? []).join(" ");
-    if (this.notes && !running) this.say(this.notes);
+    if (!running && !this.busy && !this.words.classList.contains("bad")) this.say(this.notes);
   }
 
   say(text, bad = false) {

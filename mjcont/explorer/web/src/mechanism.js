@@ -10,7 +10,7 @@ import { outermost, Stick, viewOf } from "./stick.js";
 
 const FIELD = 26;
 // a little from the side, so that depth is seen
-const SIDE = 0.3, ABOVE = 0.16;
+const SIDE = 0.22, ABOVE = 0.13;
 
 /** Return the scene of a document with its meshes decoded. */
 export function sceneOf(scene) {

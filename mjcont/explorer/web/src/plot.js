@@ -65,14 +65,14 @@ export class Plot {
     if (width < 40 || height < 40) return;
     const { x, y, lines } = this.content, ends = (axis, values) => axis.extent ?? extentOf(values);
     const [y0, y1] = [MARGIN.top, height - MARGIN.bottom];
-    this.y = this.zoomed("rescaleY", scaleFor(ends(y, lines.map((l) => l.ys)), [y1, y0], y.kind));
+    this.y = this.zoomed("rescaleY", scaleFor(ends(y, lines.map((l) => l.ys)), [y1, y0], y.kind, y.typical));
     const yTicks = ticksOf(this.y, Math.max(2, Math.floor((y1 - y0) / 44)));
     const [x0, x1] = [BESIDE + DIGIT * Math.max(...yTicks.map((v) => tick(v).length), 2), width - MARGIN.right];
     this.inner = [x0, y0, x1, y1];
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     for (const [key, value] of Object.entries({ x: x0, y: y0, width: x1 - x0, height: y1 - y0 })) this.box.setAttribute(key, value);
     this.zoom?.extent([[x0, y0], [x1, y1]]).translateExtent([[x0, y0], [x1, y1]]);
-    this.x = this.zoomed("rescaleX", scaleFor(ends(x, lines.map((l) => l.xs)), [x0, x1], x.kind));
+    this.x = this.zoomed("rescaleX", scaleFor(ends(x, lines.map((l) => l.xs)), [x0, x1], x.kind, x.typical));
     if (this.content.equal) this.equalise();
     this.drawAxes(yTicks);
     this.drawLines();

@@ -78,7 +78,7 @@ export class Readout {
     this.badge.textContent = word;
     this.badge.className = `badge ${word}`;
     this.about.hidden = !special;
-    if (special) this.about.textContent = special.text;
+    if (special) this.about.textContent = special.facts;
     for (const chip of this.chips.children) chip.setAttribute("aria-pressed", String(Number(chip.dataset.row) === row));
     if (special && this.said !== special.label) this.live.textContent = `${special.label}, ${special.name}`;
     this.said = special?.label;

@@ -23,12 +23,12 @@ export function padded([low, high], part = 0.05) {
   return [low - room, high + room];
 }
 
-/** Return a scale for an extent; `kind` is "linear", "log" where that fits, or "symlog". */
-export function scaleFor(extent, range, kind) {
+/** Return a scale for an extent; `kind` is "linear", "log" where that fits, or "symlog" about the size `typical`. */
+export function scaleFor(extent, range, kind, typical = 0) {
   const [low, high] = extent ?? [0, 1];
   if (kind === "symlog") {
     const largest = Math.max(Math.abs(low), Math.abs(high), 1e-9);
-    const constant = 10 ** Math.floor(Math.log10(largest) - 2);
+    const constant = 10 ** Math.floor(Math.log10(typical > 0 ? Math.min(typical, largest) : largest) - 1.5);
     const scale = scaleSymlog().constant(constant).domain(spread(low, high, constant)).range(range);
     scale.ticks = (count) => symlogTicks(scale.domain(), constant, count);
     return scale;

@@ -23,7 +23,7 @@ export class Spectrum {
     const unit = circle ? "" : "1/s";
     const axis = ([word, part]) => ({
       quantity: { label: [[word, "", ""]], unit }, name: word, kind: circle ? "linear" : "symlog",
-      extent: circle ? [-1.35, 1.35] : extentOfPart(curve?.eigenvalues, part),
+      extent: circle ? [-1.35, 1.35] : extentOfPart(curve?.eigenvalues, part), typical: circle ? 0 : typicalOfPart(curve?.eigenvalues, part),
     });
     const [x, y] = PARTS.map(axis);
     this.plot.draw({ x, y, lines: [], equal: circle, over: (plot, layer) => this.dots(plot, layer) });
@@ -42,6 +42,7 @@ export class Spectrum {
       const rx = Math.abs(plot.x(1) - plot.x(0)), ry = Math.abs(plot.y(1) - plot.y(0));
       layer.append(s("ellipse", { class: "axis-line", cx: plot.x(0), cy: plot.y(0), rx, ry }));
     } else layer.append(s("rect", { class: "unstable-side", x: plot.x(0), y: y0, width: Math.max(0, x1 - plot.x(0)), height: y1 - y0 }));
+    this.panel.say(curve.eigenvalues ? "" : curve.kind === "history" || curve.kind === "loadpath" ? "none in motion" : "none here");
     const unstable = curve.unstable?.[row] ?? 0, found = eigenvaluesOf(curve, row);
     const size = (v) => (curve.multipliers ? Math.hypot(...v) : v[0]);
     found.sort((a, b) => size(b) - size(a));
@@ -58,8 +59,16 @@ export class Spectrum {
   }
 }
 
+/** Return the middle one of the sizes of a part that are not nothing. */
+function typicalOfPart(table, part) {
+  const sizes = [];
+  for (let i = part, step = 2 * Math.max(1, Math.floor((table?.length ?? 0) / 4000)); i < (table?.length ?? 0); i += step)
+    if (Math.abs(table[i]) > 1e-9) sizes.push(Math.abs(table[i]));
+  return sizes.sort((a, b) => a - b)[Math.floor(sizes.length / 2)] ?? 0;
+}
+
 function extentOfPart(table, part) {
-  let low = -1, high = part === 0 ? 1 : 1;
+  let low = -1, high = 1;
   for (let i = part; i < (table?.length ?? 0); i += 2) {
     if (table[i] < low) low = table[i];
     if (table[i] > high) high = table[i];

@@ -44,7 +44,7 @@ export class Tornado {
     nameInto(label, quantities[name], name);
     const fill = h("span", { class: `bar-fill ${change < 0 ? "minus" : "plus"}` });
     fill.style.width = `${Math.max(part / 2, 0.4)}%`;
-    const words = `${change < 0 ? "\u2212" : "+"}${shown(Math.abs(change), moved, 3)}`;
+    const words = `${change < 0 ? "\u2212" : change > 0 ? "+" : ""}${shown(Math.abs(change), moved, 3)}`;
     const text = `${plainName(quantities[name], name)} + ${tolerance} moves ${plainName(moved, this.quantity)} by ${words}`;
     return h("li", {}, h("button", { class: "bar", title: text, "aria-label": text, onclick: () => this.store.tell("parameter", { name, curve: found }) },
       label, h("span", { class: "bar-track" }, fill), h("span", { class: "bar-value" }, words)));

@@ -71,7 +71,12 @@ export function shown(value, quantity, count = 6) {
   return unit === "°" ? `${text}°` : unit ? `${text} ${unit}` : text;
 }
 
-/** Return the label of an axis's number. */
+const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/** Return the label of an axis's number; far powers of ten are written as such. */
 export function tick(value) {
-  return digits(value, 4);
+  const power = Math.round(Math.log10(Math.abs(value))), far = power >= 4 || power <= -3;
+  if (!far || value === 0 || Math.abs(Math.abs(value) / 10 ** power - 1) > 1e-9) return digits(value, 4);
+  const raised = [...String(Math.abs(power))].map((d) => RAISED[d]).join("");
+  return `${value < 0 ? MINUS : ""}10${power < 0 ? "⁻" : ""}${raised}`;
 }
