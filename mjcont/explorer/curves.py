@@ -122,7 +122,7 @@ def _of_branch(branch: Branch, stage: Stage, spectra: bool) -> Curve:
         "ends": [{"status": word, "text": sentence} for word, sentence in branch.ends],
         "notes": [*branch.notes, *([branch.certificate.headline] if branch.certificate is not None else [])],
         **stage.poses(branch.problem, branch.states, values, list(branch.free)),
-        "eigenvalues": _spectra(branch, spectra and branch.rated),
+        "eigenvalues": spectra_of(branch, spectra and branch.rated),
     }
 
 
@@ -163,7 +163,8 @@ def _spread(count: int, needed: Sequence[int], most: int) -> list[int]:
     return sorted({*even, *needed})
 
 
-def _spectra(branch: Branch, complete: bool) -> Any:
+def spectra_of(branch: Branch, complete: bool) -> Any:
+    """Return the eigenvalues of a branch's rows, (N, m, 2), real and imaginary parts; unknown ones computed or NaN."""
     if complete and branch.problem is not None:
         table = branch.eigenvalues
     else:

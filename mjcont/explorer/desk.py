@@ -3,7 +3,8 @@
 Operations: `document {}`, `set {name, value}` and `undo {}` give a document, `add {table, args}` gives `{curve, more,
 quantities, sliders}`, `toml {}` and `page {}` a text, `cancel {}` nothing. There is no other; none takes a path.
 
-Events: `ready`, `failed`, `ended`; `state`; `progress`; `curve`, with `partial` while it grows.
+Events: `ready`, `failed`, `ended`; `state`; `progress`; `curve`, with `partial` while it grows; `spectra`, eigenvalues of
+a curve that was told before.
 """
 
 from __future__ import annotations
@@ -14,12 +15,13 @@ from typing import Any
 
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.explorer.arrays import packed
-from mjcont.explorer.curves import Curve, Stage, curve_of, drawable
+from mjcont.explorer.curves import Curve, Stage, curve_of, drawable, spectra_of
 from mjcont.explorer.document import assembled, quantities_of, sliders_of
 from mjcont.explorer.opening import opened, reopened
 from mjcont.explorer.page import page
 from mjcont.explorer.session import Session, curves
 from mjcont.explorer.worker import EVERYBODY, OWNER, Waiting
+from mjcont.results.branch import Branch
 
 Send = Callable[[int, dict[str, Any] | str], None]
 # what only reads, and may be answered while something runs
@@ -42,6 +44,7 @@ class Desk:
         self._session, self._send, self._waiting = session, send, waiting
         self._stage = Stage(session.mechanism)
         self._drawn: dict[str, tuple[Any, Curve]] = {}
+        self._late: list[tuple[Branch, Curve]] = []
         self._operations: Mapping[str, Callable[..., Any]] = {
             "document": self._document, "add": self._add, "set": self._set, "undo": self._undo,
             "toml": session.toml, "page": self._page, "cancel": dict,
@@ -86,6 +89,7 @@ class Desk:
                 self._send(OWNER, self._session.toml())
             if request["op"] == "document":
                 self._begin()
+            self._complete(tell=True)
 
     def _called(self, op: str, args: Mapping[str, Any]) -> Any:
         """Return what an operation gives; its arguments are those that it names, each of its type."""
@@ -131,6 +135,7 @@ class Desk:
         return self._document()
 
     def _page(self) -> str:
+        self._complete()
         return page(self._document())
 
     # -- what is drawn -----------------------------------------------------------------------------------------
@@ -145,8 +150,19 @@ class Desk:
         known = self._drawn.get(name)
         if known is None or known[0] is not result:
             parent = self._session.now.parents.get(name)
-            self._drawn[name] = known = result, curve_of(result, name, self._stage, parent)
+            curve = curve_of(result, name, self._stage, parent, spectra=False)
+            self._drawn[name] = known = result, curve
+            if isinstance(result, Branch) and result.rated:
+                self._late.append((result, curve))
         return known[1]
+
+    def _complete(self, tell: bool = False) -> None:
+        """Compute the eigenvalues that curves have not yet: they are not waited for."""
+        while self._late:
+            branch, curve = self._late.pop(0)
+            curve["eigenvalues"] = spectra_of(branch, True)
+            if tell:
+                self._send(EVERYBODY, {"event": "spectra", "id": curve["id"], "eigenvalues": curve["eigenvalues"]})
 
     def _beside(self, new: list[Curve]) -> dict[str, Any]:
         """Return what curves change besides: how quantities are shown, and which parameters are held."""

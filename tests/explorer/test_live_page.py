@@ -259,3 +259,15 @@ def test_cycles_begin_at_a_hopf_point_and_carry_their_motion(opened):
         click(tab, "cycles")
         assert curves(tab)["cycles_1"]["rows"] > 5
         assert tab("return e.store.curves.find((c) => c.id === 'cycles_1').orbit.poses.length;") > 0
+
+
+def test_eigenvalues_come_after_the_curve_and_are_those_of_its_rows(live, overcentre_branch):
+    live("e.live.add('branch', { parameter: 'F', bounds: [-50, 50], start: { F: 50 } });")
+    done(live)
+    until(lambda: live("const c = e.store.curves[1]; return c && c.eigenvalues && c.eigenvalues.every(isFinite);"))
+    row = live("const c = e.store.curves[1]; return c.specials[0].row;")
+    found = live("const v = e.store.curves[1].eigenvalues, m = v.shape[1];"
+                 "return [...v.slice(2 * m * a, 2 * m * (a + 1))].filter((_, i) => i % 2 === 0);", row)
+    branch = overcentre_branch(k_j=1000.0)
+    expected = branch.special_points[0].eigenvalues.real
+    assert sorted(found) == pytest.approx(sorted(expected), rel=1e-3, abs=1e-3)

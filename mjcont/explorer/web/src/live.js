@@ -20,6 +20,7 @@ export class Live {
     transport.on("progress", (event) => this.progress(event));
     transport.on("curve", (event) => this.arrived(event));
     transport.on("state", (event) => this.state(event));
+    transport.on("spectra", ({ id, eigenvalues }) => this.store.complete(id, eigenvalues));
     for (const event of ["failed", "ended", "close"])
       transport.on(event, (found) => this.say(found?.message || "The session has ended. What is shown stays.", true));
     this.offer();
