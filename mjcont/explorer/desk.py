@@ -3,8 +3,8 @@
 Operations: `document {}`, `set {name, value}` and `undo {}` give a document, `add {table, args}` gives `{curve, more,
 quantities, sliders}`, `toml {}` and `page {}` a text, `cancel {}` nothing. There is no other; none takes a path.
 
-Events: `ready`, `failed`, `ended`; `state`; `progress`; `curve`, `partial` while it grows; `spectra`, the eigenvalues of a
-curve that was told before.
+Events: `ready`, `failed`, `ended`; `state`; `progress`; `curve`, with `partial` while it grows; `spectra`, eigenvalues
+of a curve that was told before.
 """
 
 from __future__ import annotations
