@@ -22,7 +22,7 @@ FRESH := $(shell $(BIN)/python -c 'import pip' 2>/dev/null && $(STAMP_TEXT) | cm
 
 .DEFAULT_GOAL := help
 .PHONY: help env reproduce reproduce-fast test test-long test-fuzz test-shaken test-shaken-fast test-kernels \
-	test-faults thirdparty test-thirdparty explorer-bundle explorer-check bench clean FORCE
+	test-faults thirdparty test-thirdparty test-explorer explorer-bundle explorer-check bench clean FORCE
 
 help: ## list these targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 # \2/p' $(MAKEFILE_LIST) | awk -F' # ' '{ printf "%-23s %s\n", $$1, $$2 }'
@@ -67,6 +67,9 @@ test-thirdparty: thirdparty ## the tests on models that none of us wrote
 
 explorer-bundle: ## build the explorer's script and style sheet from its sources (needs Node 20 and npm; users do not)
 	cd $(WEB) && npm ci --silent && npm run --silent build
+
+test-explorer: env ## the explorer in a headless browser (Debian's package chromium), and its processes
+	$(BIN)/pytest -q -m browser
 
 explorer-check: ## whether the script and the style sheet in the package are what their sources build to
 	cd $(WEB) && npm ci --silent && npm run --silent check

@@ -66,6 +66,11 @@ class Stage:
         return every
 
 
+def drawable(result: Any) -> bool:
+    """Whether the explorer shows results of its kind."""
+    return isinstance(result, tuple(_KINDS))
+
+
 def curve_of(
     result: Any, name: str, stage: Stage, parent: str | None = None, *, spectra: bool = True
 ) -> Curve:
@@ -119,7 +124,7 @@ def _of_branch(branch: Branch, stage: Stage, spectra: bool) -> Curve:
         "ends": [{"status": word, "text": sentence} for word, sentence in branch.ends],
         "notes": [*branch.notes, *([branch.certificate.headline] if branch.certificate is not None else [])],
         **stage.poses(branch.problem, branch.states, values, list(branch.free)),
-        "eigenvalues": _packed_spectra(_spectra(branch, spectra and branch.rated)),
+        "eigenvalues": spectra_of(branch, spectra and branch.rated),
     }
 
 
@@ -158,6 +163,11 @@ def _spread(count: int, needed: Sequence[int], most: int) -> list[int]:
     """Return some of `count` rows, evenly, with those needed among them."""
     even = np.linspace(0, count - 1, min(count, most)).round().astype(int).tolist()
     return sorted({*even, *needed})
+
+
+def spectra_of(branch: Branch, complete: bool) -> Any:
+    """Return the eigenvalues of a branch's rows, (N, m, 2), real and imaginary parts; unknown ones computed or NaN."""
+    return _packed_spectra(_spectra(branch, complete))
 
 
 def _spectra(branch: Branch, complete: bool) -> Array:

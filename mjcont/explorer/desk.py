@@ -1,7 +1,10 @@
 """Where requests meet a session: the operations by name, and results as the browser draws them.
 
-Operations: `document {}`, `add {table, args}` -> `{curve, more, quantities}`, `set {name, value}` and `undo {}` -> a
-document, `toml {}` and `page {}` -> text, `cancel {}`. No other; none of them takes a path.
+Operations: `document {}`, `set {name, value}` and `undo {}` give a document, `add {table, args}` gives `{curve, more,
+quantities, sliders}`, `toml {}` and `page {}` a text, `cancel {}` nothing. There is no other; none takes a path.
+
+Events: `ready`, `failed`, `ended`; `state`; `progress`; `curve`, `partial` while it grows; `spectra`, the eigenvalues
+of a curve that was told before.
 """
 
 from __future__ import annotations
@@ -12,12 +15,13 @@ from typing import Any
 
 from mjcont.errors import MjcontError, ParameterError, unknown_name
 from mjcont.explorer.arrays import packed
-from mjcont.explorer.curves import Curve, Stage, curve_of
-from mjcont.explorer.document import assembled, quantities_of
+from mjcont.explorer.curves import Curve, Stage, curve_of, drawable, spectra_of
+from mjcont.explorer.document import assembled, quantities_of, sliders_of
 from mjcont.explorer.opening import opened, reopened
 from mjcont.explorer.page import page
 from mjcont.explorer.session import Session, curves
 from mjcont.explorer.worker import EVERYBODY, OWNER, Waiting
+from mjcont.results.branch import Branch
 
 Send = Callable[[int, dict[str, Any] | str], None]
 # what only reads, and may be answered while something runs
@@ -40,6 +44,7 @@ class Desk:
         self._session, self._send, self._waiting = session, send, waiting
         self._stage = Stage(session.mechanism)
         self._drawn: dict[str, tuple[Any, Curve]] = {}
+        self._late: list[tuple[Branch, Curve]] = []
         self._operations: Mapping[str, Callable[..., Any]] = {
             "document": self._document, "add": self._add, "set": self._set, "undo": self._undo,
             "toml": session.toml, "page": self._page, "cancel": dict,
@@ -84,6 +89,7 @@ class Desk:
                 self._send(OWNER, self._session.toml())
             if request["op"] == "document":
                 self._begin()
+            self._complete(tell=True)
 
     def _called(self, op: str, args: Mapping[str, Any]) -> Any:
         """Return what an operation gives; its arguments are those that it names, each of its type."""
@@ -101,9 +107,9 @@ class Desk:
 
     def _begin(self) -> None:
         def computed(results: Mapping[str, Any]) -> None:
-            every = [self._curve(name, result) for name, result in results.items()]
+            every = [self._curve(name, result) for name, result in results.items() if drawable(result)]
             for curve in every:
-                self._send(EVERYBODY, {"event": "curve", "curve": curve, "quantities": self._quantities(every)})
+                self._send(EVERYBODY, {"event": "curve", "curve": curve, **self._beside(every)})
 
         try:
             self._session.begin(computed)
@@ -118,7 +124,7 @@ class Desk:
     def _add(self, table: str, args: Mapping[str, Any]) -> dict[str, Any]:
         found = self._session.add(table, args)
         first, *more = (self._curve(name, result) for name, result in found.items())
-        return {"curve": first, "more": more, "quantities": self._quantities([])}
+        return {"curve": first, "more": more, **self._beside([])}
 
     def _set(self, name: str, value: float) -> dict[str, Any]:
         self._session.set(name, value)
@@ -129,12 +135,13 @@ class Desk:
         return self._document()
 
     def _page(self) -> str:
+        self._complete()
         return page(self._document())
 
     # -- what is drawn -----------------------------------------------------------------------------------------
 
     def _curves(self) -> list[Curve]:
-        now = curves(self._session.now.results)
+        now = {n: r for n, r in curves(self._session.now.results).items() if drawable(r)}
         self._drawn = {n: kept for n, kept in self._drawn.items() if n in now}
         return [self._curve(name, result) for name, result in now.items()]
 
@@ -143,11 +150,25 @@ class Desk:
         known = self._drawn.get(name)
         if known is None or known[0] is not result:
             parent = self._session.now.parents.get(name)
-            self._drawn[name] = known = result, curve_of(result, name, self._stage, parent)
+            curve = curve_of(result, name, self._stage, parent, spectra=False)
+            self._drawn[name] = known = result, curve
+            if isinstance(result, Branch) and result.rated:
+                self._late.append((result, curve))
         return known[1]
 
-    def _quantities(self, new: list[Curve]) -> dict[str, Any]:
-        return quantities_of([*self._curves(), *new])
+    def _complete(self, tell: bool = False) -> None:
+        """Compute the eigenvalues that curves have not yet: they are not waited for."""
+        while self._late:
+            branch, curve = self._late.pop(0)
+            curve["eigenvalues"] = spectra_of(branch, True)
+            if tell:
+                self._send(EVERYBODY, {"event": "spectra", "id": curve["id"], "eigenvalues": curve["eigenvalues"]})
+
+    def _beside(self, new: list[Curve]) -> dict[str, Any]:
+        """Return what curves change besides: how quantities are shown, and which parameters are held."""
+        every = [*self._curves(), *new]
+        return {"quantities": quantities_of(every),
+                "sliders": sliders_of(self._session.mechanism, every, self._session.now.common)}
 
 
 class _Telling:

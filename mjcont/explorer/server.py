@@ -20,7 +20,7 @@ from typing import Any
 
 from mjcont.errors import MjcontError
 from mjcont.explorer.page import page, policy
-from mjcont.explorer.worker import EVERYBODY, OWNER, Worker
+from mjcont.explorer.worker import EVERYBODY, LARGEST_MESSAGE, OWNER, Worker
 
 try:
     from websockets.asyncio.server import ServerConnection, broadcast, serve
@@ -33,7 +33,6 @@ except ImportError as error:  # pragma: no cover - the message is what is tested
 
 HOST = "127.0.0.1"
 PROTOCOL, TOKEN = "mjcont", "token."
-LARGEST_MESSAGE = 2**20
 _PAGES = 8
 # after which a session whose page has gone ends: a page that is loaded anew goes on with it
 _GRACE_SECONDS = 3.0

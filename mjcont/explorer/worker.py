@@ -22,6 +22,7 @@ from mjcont.outside.processes import end_with_parent, starting
 # to whom a message is: everybody's are events, the owner's is the study as it stands, for a worker that comes after
 EVERYBODY, OWNER = -1, -2
 Hear = Callable[[int, str], None]
+LARGEST_MESSAGE = 2**20
 _JOIN_SECONDS = 2.0
 
 

@@ -15,7 +15,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from mjcont.explorer import server as module
-from mjcont.explorer.server import LARGEST_MESSAGE, PROTOCOL, TOKEN, Server
+from mjcont.explorer.server import PROTOCOL, TOKEN, Server
+from mjcont.explorer.worker import LARGEST_MESSAGE
 
 
 class Echo:

@@ -11,7 +11,7 @@ const DECADES = 1000;
 
 export class Live {
   constructor(made, store, transport) {
-    Object.assign(this, { store, transport, sections: made.side, busy: 0 });
+    Object.assign(this, { store, transport, sections: made.side, busy: 0, notes: "" });
     this.menu = h("section", { class: "menu", "aria-label": "From here" });
     this.sliders = h("details", { class: "sliders" });
     this.build(made);
@@ -20,6 +20,7 @@ export class Live {
     transport.on("progress", (event) => this.progress(event));
     transport.on("curve", (event) => this.arrived(event));
     transport.on("state", (event) => this.state(event));
+    transport.on("spectra", ({ id, eigenvalues }) => this.store.complete(id, eigenvalues));
     for (const event of ["failed", "ended", "close"])
       transport.on(event, (found) => this.say(found?.message || "The session has ended. What is shown stays.", true));
     this.offer();
@@ -72,6 +73,7 @@ export class Live {
   async add(table, args) {
     const found = await this.ask("add", { table, args });
     if (!found) return;
+    this.hold(found.sliders);
     const raws = [found.curve, ...(found.more ?? [])], made = raws.map((raw) => this.store.put(raw, found.quantities));
     const shownFirst = made.find((c) => c.rows);
     if (shownFirst) this.store.select(shownFirst, shownFirst.start ?? 0);
@@ -103,6 +105,13 @@ export class Live {
   }
 
   // -- sliders --------------------------------------------------------------------------------------------------
+
+  /** Take other sliders: what varies along a curve has none. */
+  hold(sliders) {
+    if (!sliders) return;
+    this.store.document.sliders = sliders;
+    this.fillSliders();
+  }
 
   fillSliders() {
     const { sliders } = this.store.document;
@@ -141,7 +150,7 @@ export class Live {
     if (waits) this.working(1);
     try {
       const found = await this.transport.request(op, args);
-      if (waits) this.say("");
+      if (waits) this.say(this.notes);
       return found ?? {};
     } catch (error) {
       this.say(String(error.message ?? error), true);
@@ -169,7 +178,8 @@ export class Live {
     this.words.textContent = [what || name, done ? `${Math.round(done)} points` : "", points, seconds ? `${seconds.toFixed(1)} s` : ""].filter(Boolean).join(", ");
   }
 
-  arrived({ curve, partial, quantities }) {
+  arrived({ curve, partial, quantities, sliders }) {
+    this.hold(sliders);
     if (!partial) this.store.put(curve, quantities);
     else this.store.tell("partial", { id: curve.id, columns: Object.fromEntries(Object.entries(curve.columns).map(([n, c]) => [n, unpack(c)])) });
   }
@@ -179,7 +189,8 @@ export class Live {
     this.undo.disabled = this.busy > 0 || !can;
     this.undo.title = undo ? `Undo ${undo}` : "";
     this.bar.hidden = this.stop.hidden = !running && !this.busy;
-    if (!running && !this.busy && !this.words.classList.contains("bad")) this.say((notes ?? []).join(" "));
+    this.notes = (notes ?? []).join(" ");
+    if (!running && !this.busy && !this.words.classList.contains("bad")) this.say(this.notes);
   }
 
   say(text, bad = false) {

@@ -1,7 +1,7 @@
 // Where the page begins: the document stands in it, or a session has it. In a notebook the widget begins instead.
 
 import { mount } from "./app.js";
-import { connect } from "./transport.js";
+import { connect, connectWidget } from "./transport.js";
 
 export { mount } from "./app.js";
 
@@ -12,6 +12,20 @@ async function begin(root) {
   const found = await transport.request("document", {});
   return mount(root, found, transport);
 }
+
+/** Draw a session into a cell of a notebook, and return what takes it away: the widget's side of anywidget. */
+async function render({ model, el }) {
+  const root = el.appendChild(document.createElement("div")), transport = connectWidget(model);
+  try {
+    mount(root, await transport.request("document", {}), transport);
+    root.classList.add("embedded");
+  } catch (error) {
+    root.textContent = String(error.message ?? error);
+  }
+  return () => transport.close();
+}
+
+export default { render };
 
 const root = document.getElementById("explorer");
 if (root && document.getElementById("document"))

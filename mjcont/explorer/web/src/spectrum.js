@@ -10,7 +10,7 @@ export class Spectrum {
   constructor(panel, store) {
     Object.assign(this, { panel, store });
     this.plot = new Plot(panel.body, "Eigenvalues of the selected row", false);
-    for (const event of ["curves", "curve"]) store.on(event, () => this.begin());
+    for (const event of ["curves", "curve", "spectra"]) store.on(event, () => this.begin());
     store.on("row", () => this.mark());
     this.begin();
   }

@@ -1,6 +1,6 @@
 // What is selected and shown, and who wants to know. The curves are the document's; the rest is the browser's alone.
 
-import { curveOf } from "./data.js";
+import { curveOf, unpack } from "./data.js";
 
 export class Store {
   constructor(document) {
@@ -40,6 +40,15 @@ export class Store {
     this.curve ??= curve;
     this.tell("curves");
     return curve;
+  }
+
+  /** Take the eigenvalues of a curve that came without. */
+  complete(id, eigenvalues) {
+    const curve = this.curves.find((c) => c.id === id), raw = this.document.curves.find((c) => c.id === id);
+    if (!curve) return;
+    raw.eigenvalues = eigenvalues;
+    curve.eigenvalues = unpack(eigenvalues);
+    if (curve === this.curve) this.tell("spectra");
   }
 
   on(event, listener) {
