@@ -32,6 +32,8 @@ STABLE, MARGINAL, UNSTABLE, JUMPING = 1, 0, -1, 2
 _CODES = {"stable": STABLE, "marginal": MARGINAL, "unstable": UNSTABLE}
 # orbits of a curve that carry their motion, and samples of each: what a loop in the browser needs to look smooth
 _ORBITS, _SAMPLES = 40, 61
+# samples of a history that travel: more than a screen is wide
+_MOST_SAMPLES = 4000
 Curve = dict[str, Any]
 
 
@@ -141,7 +143,7 @@ def _motions(branch: CycleBranch, rows: Sequence[int], stage: Stage) -> Curve:
     """Return one period of some of a curve's orbits, (orbits, samples), at even times."""
     histories = [branch.orbits[i].history(_SAMPLES) for i in rows]
     names = [n for n in histories[0].columns if n != "time"]
-    posed = [stage.poses(h.problem, h.states, _values(h), _driven(h)) for h in histories]
+    posed = [stage.poses(h.problem, h.states, _values(h, range(len(h))), _driven(h)) for h in histories]
     joined: Curve = {}
     if all("poses" in p for p in posed):
         from mjcont.explorer.arrays import unpacked
@@ -165,10 +167,15 @@ def _spread(count: int, needed: Sequence[int], most: int) -> list[int]:
 
 def spectra_of(branch: Branch, complete: bool) -> Any:
     """Return the eigenvalues of a branch's rows, (N, m, 2), real and imaginary parts; unknown ones computed or NaN."""
-    if complete and branch.problem is not None:
-        table = branch.eigenvalues
-    else:
-        table = branch.spectra.table()
+    return _packed_spectra(_spectra(branch, complete))
+
+
+def _spectra(branch: Branch, complete: bool) -> Array:
+    """Return the eigenvalues of rows, (N, m), NaN where there are fewer or they are not known."""
+    return branch.eigenvalues if complete and branch.problem is not None else branch.spectra.table()
+
+
+def _packed_spectra(table: Array) -> Any:
     return packed(np.stack([table.real, table.imag], axis=-1), "f4") if table.size else None
 
 
@@ -192,7 +199,6 @@ def _facts(p: SpecialPoint) -> str:
 
 def _of_path(path: LoadPath, stage: Stage, spectra: bool) -> Curve:
     """Return a load path with the motions of its jumps between its rows."""
-    del spectra
     names = list(dict.fromkeys([*path.names, *path.segments[0].branch.columns]))
     roles = {c.name: c.role for s in path.segments[:1] for c in s.branch.columns.values()}
     columns = {n: [path[n]] for n in names}
@@ -218,10 +224,22 @@ def _of_path(path: LoadPath, stage: Stage, spectra: bool) -> Curve:
         "free": {n: [min(v[n] for v in path.vertices), max(v[n] for v in path.vertices)] for n in path.names},
         "stability": packed(codes, "i1"),
         "own": packed(at, "i4"),
+        "eigenvalues": _packed_spectra(_along(path, spectra)[at]),
         "specials": [_jumped(j, int(np.flatnonzero(at == j.index)[0])) for j in reversed(specials)],
         "ends": [{"status": path.status, "text": path.message}],
         **stage.poses(path.problem, states, values, list(path.names)),
     }
+
+
+def _along(path: LoadPath, complete: bool) -> Array:
+    """Return the eigenvalues of a path's rows, and behind them a row of NaN for all that move."""
+    tables = [_spectra(s.branch, complete)[:: s.direction] for s in path.segments]
+    found = np.full((len(path) + 1, max(t.shape[1] for t in tables)), complex(np.nan, np.nan))
+    first = 0
+    for table in tables:
+        found[first : first + len(table), : table.shape[1]] = table
+        first += len(table)
+    return found
 
 
 def _seen(path: LoadPath, states: Array, values: Mapping[str, float], names: Sequence[str]) -> dict[str, Array]:
@@ -243,12 +261,14 @@ def _jumped(jump: Jump, row: int) -> Curve:
 def _of_history(history: History, stage: Stage, spectra: bool) -> Curve:
     del spectra
     shown = next((c.name for c in history.columns.values() if c.role == "observable"), "time")
+    rows = _spread(len(history), [], _MOST_SAMPLES)
+    thinned = [f"{len(rows)} of its {len(history)} samples are shown"] if len(rows) < len(history) else []
     return {
         "kind": "history",
-        **_columns({n: (c.unit, c.role, c.values) for n, c in history.columns.items()}),
-        "axes": ["time", shown], "fixed": plain(history.fixed),
+        **_columns({n: (c.unit, c.role, c.values[rows]) for n, c in history.columns.items()}),
+        "axes": ["time", shown], "fixed": plain(history.fixed), "notes": thinned,
         "ends": [{"status": history.status, "text": history.message}],
-        **stage.poses(history.problem, history.states, _values(history), _driven(history)),
+        **stage.poses(history.problem, history.states[rows], _values(history, rows), _driven(history)),
     }
 
 
@@ -256,11 +276,11 @@ def _driven(history: History) -> list[str]:
     return [c.name for c in history.columns.values() if c.role == "parameter"]
 
 
-def _values(history: History) -> list[dict[str, float]]:
+def _values(history: History, rows: Sequence[int]) -> list[dict[str, float]]:
     known: Any = history.problem.parameters if history.problem is not None else ()
     driven = {n: history[n] for n in _driven(history) if n in known}
     fixed = {n: v for n, v in history.fixed.items() if n in known}
-    return [{**fixed, **{n: float(c[i]) for n, c in driven.items()}} for i in range(len(history))]
+    return [{**fixed, **{n: float(c[i]) for n, c in driven.items()}} for i in rows]
 
 
 # -- what is no curve of states ----------------------------------------------------------------------------------

@@ -17,6 +17,7 @@ from typing import Any
 
 from mjcont.errors import MjcontError
 from mjcont.explorer.document import document_of
+from mjcont.explorer.naming import named
 from mjcont.outside.escapes import for_page
 from mjcont.outside.saving import checked_path, write_file
 
@@ -94,10 +95,7 @@ def to_html(path: str | Path, *results: Any, title: str = "", study: str = "") -
     MjcontError
         If there is no result, one of another kind, or the file cannot be written.
     """
-    named: dict[str, Any] = {}
-    for result in results:
-        named[_name(result, named)] = result
-    return write_page(path, named, title=title, study=study)
+    return write_page(path, named(results), title=title, study=study)
 
 
 def write_page(path: str | Path, results: Mapping[str, Any], *, title: str = "", study: str = "") -> Path:
@@ -106,11 +104,3 @@ def write_page(path: str | Path, results: Mapping[str, Any], *, title: str = "",
     if place.suffix.lower() not in (".html", ".htm"):
         raise MjcontError(f"a page is written as .html, got '{place.name}'")
     return write_file(place, page(document_of(results, title=title, study=study)))
-
-
-def _name(result: Any, taken: Mapping[str, Any]) -> str:
-    """Return what a result is called on a page: its kind, with a number where there are several."""
-    words = {"CycleBranch": "orbits", "LoadPath": "load path", "History": "history", "SpecialMap": "map",
-             "Sensitivities": "sensitivities", "BarrierCurve": "barriers", "Diagram": "branch"}
-    word = words.get(type(result).__name__, "") or str(getattr(result, "kind", "result"))
-    return next(n for i in range(1, len(taken) + 2) if (n := word if i == 1 else f"{word} {i}") not in taken)

@@ -10,6 +10,7 @@ import pytest
 import mjcont as mc
 from mjcont.commands.cli import main
 from mjcont.explorer.document import document_of
+from mjcont.explorer.naming import named
 from mjcont.explorer.page import bundle, page, policy, to_html
 
 
@@ -61,7 +62,12 @@ def test_to_html_writes_one_file_named_by_its_ending(tmp_path, overcentre_branch
 def test_several_results_of_one_kind_have_names_of_their_own(tmp_path, overcentre_branch):
     branch = overcentre_branch(k_j=1e3)
     text = to_html(tmp_path / "page.html", branch, branch).read_text(encoding="utf-8")
-    assert [c["id"] for c in json.loads(inner(text, 'id="document">'))["curves"]] == ["equilibria", "equilibria 2"]
+    assert [c["id"] for c in json.loads(inner(text, 'id="document">'))["curves"]] == ["equilibria", "equilibria (2)"]
+
+
+def test_branches_are_named_by_what_differs_between_them(overcentre_branch):
+    names = list(named([overcentre_branch(k_j=1e3), overcentre_branch(k_j=200.0)]))
+    assert names == ["equilibria, k_j = 1000 N/m", "equilibria, k_j = 200 N/m"]
 
 
 def test_export_writes_a_page_or_a_table_as_the_ending_says(stored, tmp_path, capsys):

@@ -10,19 +10,30 @@ const dist = join(here, "dist");
 
 async function built() {
   const options = {
-    absWorkingDir: here, bundle: true, minify: true, write: false, metafile: true, charset: "utf8", legalComments: "none", target: "es2023",
+    absWorkingDir: here,
+    bundle: true,
+    minify: true,
+    write: false,
+    metafile: true,
+    charset: "utf8",
+    legalComments: "none",
+    target: "es2023",
   };
   const script = await build({ ...options, entryPoints: ["src/main.js"], format: "esm", outfile: "dist/explorer.js" });
   const style = await build({ ...options, entryPoints: ["src/style.css"], outfile: "dist/explorer.css" });
   return {
-    "explorer.js": script.outputFiles[0].text, "explorer.css": style.outputFiles[0].text, "LICENSES.txt": licences(script.metafile),
+    "explorer.js": script.outputFiles[0].text,
+    "explorer.css": style.outputFiles[0].text,
+    "LICENSES.txt": licences(script.metafile),
   };
 }
 
 /** Return the licence of every package whose code is in the script. */
 function licences(metafile) {
   const inputs = Object.keys(Object.values(metafile.outputs)[0].inputs);
-  const names = [...new Set(inputs.map((path) => path.match(/^node_modules\/((?:@[^/]+\/)?[^/]+)/)?.[1]).filter(Boolean))].sort();
+  const names = [
+    ...new Set(inputs.map((path) => path.match(/^node_modules\/((?:@[^/]+\/)?[^/]+)/)?.[1]).filter(Boolean)),
+  ].sort();
   const texts = names.map((name) => {
     const folder = join(here, "node_modules", name);
     const { version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
@@ -33,7 +44,9 @@ function licences(metafile) {
 
 const files = await built();
 if (process.argv.includes("--check")) {
-  const other = Object.entries(files).filter(([name, text]) => readFileSync(join(dist, name), "utf8") !== text).map(([name]) => name);
+  const other = Object.entries(files)
+    .filter(([name, text]) => readFileSync(join(dist, name), "utf8") !== text)
+    .map(([name]) => name);
   if (other.length) {
     console.error(`explorer: dist/ is not what src/ builds to: ${other.join(", ")}; run make explorer-bundle`);
     process.exit(1);

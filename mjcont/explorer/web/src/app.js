@@ -22,13 +22,25 @@ const FRAMED = 40;
 
 /** Draw a document into an element; `transport` speaks with a session, null for a page of its own. */
 export function mount(root, document, transport = null) {
-  if (document.format !== "mjcont explorer" || document.version > VERSION) throw new Error(`this page draws documents of version ${VERSION}, not ${document.version}`);
-  const store = new Store(document), made = frame(root, document.title), { panels } = made;
+  if (document.format !== "mjcont explorer" || document.version > VERSION)
+    throw new Error(`this page draws documents of version ${VERSION}, not ${document.version}`);
+  const store = new Store(document),
+    made = frame(root, document.title),
+    { panels } = made;
   store.live = Boolean(transport);
-  const mechanism = document.scene ? new Mechanism(panels.mechanism.body, sceneOf(document.scene), `The mechanism ${document.title}`) : null;
+  const mechanism = document.scene
+    ? new Mechanism(panels.mechanism.body, sceneOf(document.scene), `The mechanism ${document.title}`)
+    : null;
   panels.mechanism.show(Boolean(mechanism));
-  const readout = new Readout(made.side, store), player = new Player(made.player, store);
-  const plots = { diagram: new Diagram(panels.diagram, store), locus: new Locus(panels.locus, store), spectrum: new Spectrum(panels.spectrum, store), motion: new Motion(panels.motion, store), grid: new Grid(panels.grid, store) };
+  const readout = new Readout(made.side, store),
+    player = new Player(made.player, store);
+  const plots = {
+    diagram: new Diagram(panels.diagram, store),
+    locus: new Locus(panels.locus, store),
+    spectrum: new Spectrum(panels.spectrum, store),
+    motion: new Motion(panels.motion, store),
+    grid: new Grid(panels.grid, store),
+  };
   new Tornado(panels.tornado, store);
   made.side.append(...readout.after, versions(document));
   for (const [name, plot] of Object.entries(plots)) withPicture(panels[name], () => plot.plot.svg);
@@ -54,7 +66,8 @@ function follow(mechanism, store, panel) {
   const frameAll = () => {
     const poses = [];
     for (const curve of store.curves.filter((c) => c.poses))
-      for (let k = 0, n = Math.min(FRAMED, curve.rows); k < n; k++) poses.push(poseOf(curve, Math.round((k * (curve.rows - 1)) / Math.max(n - 1, 1))));
+      for (let k = 0, n = Math.min(FRAMED, curve.rows); k < n; k++)
+        poses.push(poseOf(curve, Math.round((k * (curve.rows - 1)) / Math.max(n - 1, 1))));
     mechanism.frame(poses.length ? poses : [mechanism.scene.pose]);
   };
   const here = () => mechanism.pose(pose());
@@ -66,17 +79,44 @@ function follow(mechanism, store, panel) {
   });
   frameAll();
   here();
-  panel.tools.append(h("button", { class: "icon", title: "Show all", "aria-label": "Show all of the mechanism", onclick: frameAll }, icon("all")));
+  panel.tools.append(
+    h(
+      "button",
+      { class: "icon", title: "Show all", "aria-label": "Show all of the mechanism", onclick: frameAll },
+      icon("all"),
+    ),
+  );
   withPicture(panel, () => mechanism.picture());
 }
 
 function buttons(host, store) {
   const { study, title } = store.document;
-  if (study && !store.live) host.append(h("button", { class: "take study", onclick: () => give("study.toml", store.document.study, "text/plain") }, "study.toml"));
-  host.append(h("button", { class: "take theme", "aria-label": "Light or dark", title: "Light or dark", onclick: () => {
-    const root = host.closest(".mjx"), dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
-    root.dataset.theme = dark ? "light" : "dark";
-  } }, icon("theme")));
+  if (study && !store.live)
+    host.append(
+      h(
+        "button",
+        { class: "take study", onclick: () => give("study.toml", store.document.study, "text/plain") },
+        "study.toml",
+      ),
+    );
+  host.append(
+    h(
+      "button",
+      {
+        class: "take theme",
+        "aria-label": "Light or dark",
+        title: "Light or dark",
+        onclick: () => {
+          const root = host.closest(".mjx"),
+            dark = root.dataset.theme
+              ? root.dataset.theme === "dark"
+              : matchMedia("(prefers-color-scheme: dark)").matches;
+          root.dataset.theme = dark ? "light" : "dark";
+        },
+      },
+      icon("theme"),
+    ),
+  );
   host.dataset.title = title;
 }
 

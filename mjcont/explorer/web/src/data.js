@@ -1,9 +1,17 @@
 // The document as the browser uses it: arrays decoded once, curves with what drawing and dragging need.
 
 const TYPES = {
-  f4: Float32Array, f8: Float64Array, i1: Int8Array, i4: Int32Array, u2: Uint16Array, u4: Uint32Array,
+  f4: Float32Array,
+  f8: Float64Array,
+  i1: Int8Array,
+  i4: Int32Array,
+  u2: Uint16Array,
+  u4: Uint32Array,
 };
-export const STABLE = 1, MARGINAL = 0, UNSTABLE = -1, JUMPING = 2;
+export const STABLE = 1,
+  MARGINAL = 0,
+  UNSTABLE = -1,
+  JUMPING = 2;
 export const STABILITY = { [STABLE]: "stable", [MARGINAL]: "marginal", [UNSTABLE]: "unstable", [JUMPING]: "jumping" };
 
 /** Return a packed array as a typed one that knows its `shape`; null stays null. */
@@ -31,8 +39,13 @@ export function curveOf(raw) {
   if (raw.orbit) {
     const { poses, shapes, tendons, rows, period } = raw.orbit;
     curve.orbit = {
-      ...raw.orbit, columns: unpackEach(raw.orbit.columns), rows: unpack(rows), period: unpack(period),
-      poses: unpack(poses), shapes: unpack(shapes), tendons: unpack(tendons),
+      ...raw.orbit,
+      columns: unpackEach(raw.orbit.columns),
+      rows: unpack(rows),
+      period: unpack(period),
+      poses: unpack(poses),
+      shapes: unpack(shapes),
+      tendons: unpack(tendons),
     };
   }
   if (raw.kind === "sensitivities") {
@@ -69,11 +82,13 @@ export function orbitAt(curve, row) {
 
 /** Return one sample of an orbit's motion as a pose: bodies, shapes and springs, each a view on a row. */
 export function poseOfOrbit(curve, row, sample) {
-  const k = orbitAt(curve, row), { poses, tendons, shapes } = curve.orbit;
+  const k = orbitAt(curve, row),
+    { poses, tendons, shapes } = curve.orbit;
   if (!poses) return null;
   const at = (array, first) => {
     if (!array) return null;
-    const [, samples, ...rest] = array.shape, size = rest.reduce((a, b) => a * b, 1);
+    const [, samples, ...rest] = array.shape,
+      size = rest.reduce((a, b) => a * b, 1);
     const one = (samples === 1 ? 0 : first) + k * samples;
     return array.subarray(one * size, (one + 1) * size);
   };
@@ -85,7 +100,8 @@ export function poseOf(curve, row) {
   if (!curve?.poses) return null;
   const at = (array) => {
     if (!array) return null;
-    const size = array.length / array.shape[0], k = array.shape[0] === 1 ? 0 : row;
+    const size = array.length / array.shape[0],
+      k = array.shape[0] === 1 ? 0 : row;
     return array.subarray(k * size, (k + 1) * size);
   };
   return { bodies: at(curve.poses), tendons: at(curve.tendons), shapes: at(curve.shapes) };
@@ -93,11 +109,13 @@ export function poseOf(curve, row) {
 
 /** Return the eigenvalues of a row as [re, im] pairs; none where they are not known. */
 export function eigenvaluesOf(curve, row) {
-  const table = curve.eigenvalues, found = [];
+  const table = curve.eigenvalues,
+    found = [];
   if (!table) return found;
   const width = table.shape[1];
   for (let k = 0; k < width; k++) {
-    const re = table[2 * (row * width + k)], im = table[2 * (row * width + k) + 1];
+    const re = table[2 * (row * width + k)],
+      im = table[2 * (row * width + k) + 1];
     if (Number.isFinite(re) && Number.isFinite(im)) found.push([re, im]);
   }
   return found;
@@ -105,10 +123,12 @@ export function eigenvaluesOf(curve, row) {
 
 /** Return runs [first, last] of rows of one stability; neighbours share a row, so that lines meet. */
 export function runsOf(curve) {
-  const codes = curve.stability, runs = [];
+  const codes = curve.stability,
+    runs = [];
   if (!codes) return [{ first: 0, last: curve.rows - 1, code: null }];
   const code = (i) => (codes[i] === MARGINAL ? null : codes[i]);
-  let first = 0, now = null;
+  let first = 0,
+    now = null;
   for (let i = 0; i < curve.rows; i++) {
     const here = code(i);
     if (here === null || here === now) continue;

@@ -23,8 +23,14 @@ export function linesOf(curve, x, y, quantities, cls = "") {
   if (!xs) return [];
   const runs = runsOf(curve).map((r) => ({ ...r, cls: r.code === null ? "" : STABILITY[r.code] }));
   return drawnColumns(curve, y).map((ys, k) => ({
-    xs: scaled(xs, quantities[x]), ys: scaled(ys, quantities[y] ?? quantities[`${y}.max`]), runs, curve, cls: `${curve.kind} ${cls}`,
-    key: `${curve.id}/${k}`, snaps: true, turn: turning(ys, quantities[y]),
+    xs: scaled(xs, quantities[x]),
+    ys: scaled(ys, quantities[y] ?? quantities[`${y}.max`]),
+    runs,
+    curve,
+    cls: `${curve.kind} ${cls}`,
+    key: `${curve.id}/${k}`,
+    snaps: true,
+    turn: turning(ys, quantities[y]),
   }));
 }
 
@@ -37,7 +43,13 @@ export function pointsOf(lines, selected) {
   for (const l of lines)
     for (const p of l.curve.specials) {
       if (p.kind === "EP") continue;
-      found.push({ x: l.xs[p.row], y: l.ys[p.row], label: l.key.endsWith("/0") ? p.label : "", kind: p.kind, cls: l.curve === selected ? "" : "faint" });
+      found.push({
+        x: l.xs[p.row],
+        y: l.ys[p.row],
+        label: l.key.endsWith("/0") ? p.label : "",
+        kind: p.kind,
+        cls: l.curve === selected ? "" : "faint",
+      });
     }
   return found;
 }
@@ -46,7 +58,12 @@ export class Diagram {
   constructor(panel, store) {
     Object.assign(this, { panel, store, lines: [] });
     this.plot = new Plot(panel.body, "Bifurcation diagram");
-    this.drag = new Drag(this.plot, () => this.lines, (curve, row) => store.select(curve, row), () => store.curve);
+    this.drag = new Drag(
+      this.plot,
+      () => this.lines,
+      (curve, row) => store.select(curve, row),
+      () => store.curve,
+    );
     for (const event of ["curves", "curve"]) store.on(event, () => this.draw());
     store.on("row", () => this.mark());
     store.on("partial", (curve) => this.grow(curve));
@@ -68,10 +85,12 @@ export class Diagram {
   }
 
   offer() {
-    const names = new Set(), { quantities } = this.store;
+    const names = new Set(),
+      { quantities } = this.store;
     for (const c of this.curves) {
       for (const n of Object.keys(c.columns)) names.add(n);
-      if (c.kind === "orbits") for (const n of Object.keys(c.orbit?.columns ?? {})) if (c.columns[`${n}.max`]) names.add(n);
+      if (c.kind === "orbits")
+        for (const n of Object.keys(c.orbit?.columns ?? {})) if (c.columns[`${n}.max`]) names.add(n);
     }
     this.offered = [...names].join();
     const options = [...names].map((n) => [n, plainName(quantities[n], n)]);
@@ -92,15 +111,18 @@ export class Diagram {
     this.panel.show(curves.length > 0);
     if (!curves.length) return undefined;
     if (!this.axes) return this.choose();
-    const { x, y } = this.axes, { quantities, curve } = this.store;
+    const { x, y } = this.axes,
+      { quantities, curve } = this.store;
     if (curves.some((c) => Object.keys(c.columns).some((n) => !`,${this.offered},`.includes(`,${n},`)))) this.offer();
     const many = curves.length > 1;
     this.lines = curves.flatMap((c) => linesOf(c, x, y, quantities, many && c !== curve ? "other" : ""));
     this.lines.push(...this.moving());
     const jumps = this.lines.some((l) => l.runs.some((r) => r.code === JUMPING));
     this.plot.draw({
-      x: { quantity: quantities[x], name: x, kind: "log" }, y: { quantity: quantities[y] ?? quantities[`${y}.max`], name: y, kind: "log" },
-      lines: this.lines, points: pointsOf(this.lines, curve),
+      x: { quantity: quantities[x], name: x, kind: "log" },
+      y: { quantity: quantities[y] ?? quantities[`${y}.max`], name: y, kind: "log" },
+      lines: this.lines,
+      points: pointsOf(this.lines, curve),
     });
     this.panel.element.classList.toggle("jumps", jumps);
     this.mark();
@@ -109,25 +131,33 @@ export class Diagram {
 
   /** Draw what there is of a curve that is still being computed; null takes it away. */
   grow(curve) {
-    const { x, y } = this.axes ?? {}, { quantities } = this.store, xs = curve?.columns[x], ys = curve?.columns[y];
+    const { x, y } = this.axes ?? {},
+      { quantities } = this.store,
+      xs = curve?.columns[x],
+      ys = curve?.columns[y];
     const layer = this.plot.layers.over;
     if (!xs || !ys || !this.plot.x) return layer.replaceChildren();
-    const ways = curve.columns.direction, parts = [];
+    const ways = curve.columns.direction,
+      parts = [];
     for (let i = 0; i < xs.length; i++) {
       const pen = i === 0 || (ways && ways[i] !== ways[i - 1]) ? "M" : "L";
-      parts.push(`${pen}${this.plot.x(xs[i] * (quantities[x]?.scale ?? 1)).toFixed(1)},${this.plot.y(ys[i] * (quantities[y]?.scale ?? 1)).toFixed(1)}`);
+      parts.push(
+        `${pen}${this.plot.x(xs[i] * (quantities[x]?.scale ?? 1)).toFixed(1)},${this.plot.y(ys[i] * (quantities[y]?.scale ?? 1)).toFixed(1)}`,
+      );
     }
     return layer.replaceChildren(s("path", { class: "line growing", d: parts.join("") }));
   }
 
   /** Return the lines of a history that is selected: how a motion goes over the diagram. */
   moving() {
-    const { curve, quantities } = this.store, { x, y } = this.axes;
+    const { curve, quantities } = this.store,
+      { x, y } = this.axes;
     return curve?.kind === "history" ? linesOf(curve, x, y, quantities, "moving") : [];
   }
 
   mark() {
-    const { curve, row } = this.store, l = this.lines.find((line) => line.curve === curve);
+    const { curve, row } = this.store,
+      l = this.lines.find((line) => line.curve === curve);
     this.plot.place(l ? [l.xs[row], l.ys[row]] : null);
   }
 }

@@ -43,5 +43,9 @@ const ICONS = {
 
 /** Return an icon. */
 export function icon(name) {
-  return s("svg", { class: `glyph ${name}`, viewBox: "0 0 16 16", "aria-hidden": "true" }, s("path", { d: ICONS[name] }));
+  return s(
+    "svg",
+    { class: `glyph ${name}`, viewBox: "0 0 16 16", "aria-hidden": "true" },
+    s("path", { d: ICONS[name] }),
+  );
 }

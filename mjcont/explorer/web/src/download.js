@@ -2,7 +2,22 @@
 
 import { h, icon } from "./dom.js";
 
-const KEPT = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linecap", "stroke-linejoin", "stroke-opacity", "opacity", "font-family", "font-size", "font-weight", "text-anchor", "visibility"];
+const KEPT = [
+  "fill",
+  "fill-opacity",
+  "stroke",
+  "stroke-width",
+  "stroke-dasharray",
+  "stroke-linecap",
+  "stroke-linejoin",
+  "stroke-opacity",
+  "opacity",
+  "font-family",
+  "font-size",
+  "font-weight",
+  "text-anchor",
+  "visibility",
+];
 
 /** Hand out a text as a file. */
 export function give(name, text, type) {
@@ -14,14 +29,16 @@ export function give(name, text, type) {
 
 /** Return an SVG element as a file of its own: its style is written into it. */
 export function svgText(svg, marker = null) {
-  const copy = svg.cloneNode(true), own = [svg, ...svg.querySelectorAll("*")], made = [copy, ...copy.querySelectorAll("*")];
+  const copy = svg.cloneNode(true),
+    own = [svg, ...svg.querySelectorAll("*")],
+    made = [copy, ...copy.querySelectorAll("*")];
   for (const [i, element] of own.entries()) {
     made[i].removeAttribute("class");
     if (!element.isConnected) continue;
     const style = getComputedStyle(element);
     for (const name of KEPT) {
       const value = style.getPropertyValue(name);
-      if (value && value !== "none" || name === "fill" || name === "stroke") made[i].setAttribute(name, value);
+      if ((value && value !== "none") || name === "fill" || name === "stroke") made[i].setAttribute(name, value);
     }
     made[i].removeAttribute("style");
   }
@@ -37,5 +54,14 @@ export function svgText(svg, marker = null) {
 /** Return the button that hands out a panel's picture. */
 export function pictureButton(panel, picture) {
   const label = `Save the picture of ${panel.element.getAttribute("aria-label").toLowerCase()} as SVG`;
-  return h("button", { class: "icon", title: "picture.svg", "aria-label": label, onclick: () => give(`${panel.name}.svg`, svgText(picture()), "image/svg+xml") }, icon("take"));
+  return h(
+    "button",
+    {
+      class: "icon",
+      title: "picture.svg",
+      "aria-label": label,
+      onclick: () => give(`${panel.name}.svg`, svgText(picture()), "image/svg+xml"),
+    },
+    icon("take"),
+  );
 }

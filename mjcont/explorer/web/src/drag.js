@@ -12,7 +12,8 @@ export class Drag {
     const svg = plot.svg;
     svg.addEventListener("pointerdown", (e) => this.down(e));
     svg.addEventListener("pointermove", (e) => this.held && this.move(e));
-    for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) svg.addEventListener(name, () => this.up());
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
+      svg.addEventListener(name, () => this.up());
   }
 
   down(event) {
@@ -43,7 +44,8 @@ export class Drag {
   }
 
   move(event) {
-    const [x, y] = this.plot.where(event), { at, row } = this.held;
+    const [x, y] = this.plot.where(event),
+      { at, row } = this.held;
     // a new drawing has new lines
     const line = this.lines().find((l) => l.key === this.held.line.key) ?? this.held.line;
     const room = WINDOW + 2 * Math.hypot(x - at[0], y - at[1]);
@@ -61,7 +63,8 @@ export class Drag {
 
 /** Return the row of a line, among first .. last, that is nearest to a place. */
 export function nearest(line, x, y, first, last) {
-  let row = -1, far = Infinity;
+  let row = -1,
+    far = Infinity;
   for (let i = first; i <= last; i++) {
     const d = (line.px[i] - x) ** 2 + (line.py[i] - y) ** 2;
     if (d < far) [row, far] = [i, d];
@@ -71,7 +74,8 @@ export function nearest(line, x, y, first, last) {
 
 /** Return the row that is `room` pixels along the line from another one. */
 function reach(line, row, way, room) {
-  let i = row, length = 0;
+  let i = row,
+    length = 0;
   while (length < room && i + way >= 0 && i + way < line.px.length) {
     const step = Math.hypot(line.px[i + way] - line.px[i], line.py[i + way] - line.py[i]);
     if (Number.isFinite(step)) length += step;

@@ -8,13 +8,18 @@ import { Plot } from "./plot.js";
 import { extentOf } from "./scales.js";
 import { plainName, shown } from "./words.js";
 
-const LOW = [214, 230, 247], HIGH = [9, 66, 128];
+const LOW = [214, 230, 247],
+  HIGH = [9, 66, 128];
 
 export class Grid {
   constructor(panel, store) {
     Object.assign(this, { panel, store, lines: [] });
     this.plot = new Plot(panel.body, "A point over parameters, or energy barriers");
-    this.drag = new Drag(this.plot, () => this.lines, (curve, row) => store.select(curve, row));
+    this.drag = new Drag(
+      this.plot,
+      () => this.lines,
+      (curve, row) => store.select(curve, row),
+    );
     for (const event of ["curves", "curve"]) store.on(event, () => this.draw());
     store.on("row", () => this.mark());
     this.draw();
@@ -24,26 +29,53 @@ export class Grid {
     const every = this.store.curvesOf("map", "barriers");
     this.panel.show(every.length > 0);
     if (!every.length) return;
-    const { curve, quantities } = this.store, now = every.includes(curve) ? curve : every.at(-1);
+    const { curve, quantities } = this.store,
+      now = every.includes(curve) ? curve : every.at(-1);
     const flat = now.kind === "map" && Object.keys(now.grid).length > 1;
     const [x, y] = flat ? Object.keys(now.grid) : now.kind === "map" ? [Object.keys(now.grid)[0], now.shown] : now.axes;
-    this.panel.title(now.kind === "map" ? `${now.point}: ${plainName(quantities[now.shown], now.shown)}` : "Energy barrier");
+    this.panel.title(
+      now.kind === "map" ? `${now.point}: ${plainName(quantities[now.shown], now.shown)}` : "Energy barrier",
+    );
     this.shown = now;
-    this.lines = flat ? [{ xs: scaled(columnOf(now, x), quantities[x]), ys: scaled(columnOf(now, y), quantities[y]), runs: [], curve: now, key: now.id }] : linesOf(now, x, y, quantities, "plain");
+    this.lines = flat
+      ? [
+          {
+            xs: scaled(columnOf(now, x), quantities[x]),
+            ys: scaled(columnOf(now, y), quantities[y]),
+            runs: [],
+            curve: now,
+            key: now.id,
+          },
+        ]
+      : linesOf(now, x, y, quantities, "plain");
     if (now.kind === "barriers") this.lines.forEach((l) => (l.runs = piecesOf(now.pieces)));
     this.plot.draw({
-      x: { quantity: quantities[x], name: x }, y: { quantity: quantities[y], name: y }, lines: this.lines, points: [],
+      x: { quantity: quantities[x], name: x },
+      y: { quantity: quantities[y], name: y },
+      lines: this.lines,
+      points: [],
       over: flat ? (plot, layer) => this.cells(plot, layer, now) : null,
     });
     this.mark();
   }
 
   cells(plot, layer, now) {
-    const values = columnOf(now, now.shown), [low, high] = extentOf([values]) ?? [0, 1], [l] = this.lines, quantity = this.store.quantities[now.shown];
+    const values = columnOf(now, now.shown),
+      [low, high] = extentOf([values]) ?? [0, 1],
+      [l] = this.lines,
+      quantity = this.store.quantities[now.shown];
     const [wide, high1] = [plot.x, plot.y].map((scale, k) => cellSize(scale, k ? l.ys : l.xs));
     for (let i = 0; i < values.length; i++) {
-      const t = (values[i] - low) / (high - low || 1), colour = LOW.map((a, k) => Math.round(a + t * (HIGH[k] - a)));
-      const cell = s("rect", { x: plot.x(l.xs[i]) - wide / 2, y: plot.y(l.ys[i]) - high1 / 2, width: wide - 1, height: high1 - 1, fill: `rgb(${colour.join()})`, class: "cell" });
+      const t = (values[i] - low) / (high - low || 1),
+        colour = LOW.map((a, k) => Math.round(a + t * (HIGH[k] - a)));
+      const cell = s("rect", {
+        x: plot.x(l.xs[i]) - wide / 2,
+        y: plot.y(l.ys[i]) - high1 / 2,
+        width: wide - 1,
+        height: high1 - 1,
+        fill: `rgb(${colour.join()})`,
+        class: "cell",
+      });
       const title = s("title");
       title.textContent = shown(values[i], quantity, 5);
       cell.append(title);
@@ -52,7 +84,8 @@ export class Grid {
   }
 
   mark() {
-    const { curve, row } = this.store, l = this.lines.find((line) => line.curve === curve);
+    const { curve, row } = this.store,
+      l = this.lines.find((line) => line.curve === curve);
     this.plot.place(l ? [l.xs[row], l.ys[row]] : null);
   }
 }
@@ -70,4 +103,3 @@ function piecesOf(pieces) {
     else runs.at(-1).last = i;
   return runs;
 }
-

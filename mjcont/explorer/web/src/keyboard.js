@@ -23,7 +23,10 @@ export function listen(root, store, player) {
 }
 
 function special(store, way) {
-  const rows = store.curve.specials.filter((p) => p.kind !== "EP").map((p) => p.row).sort((a, b) => way * (a - b));
+  const rows = store.curve.specials
+    .filter((p) => p.kind !== "EP")
+    .map((p) => p.row)
+    .sort((a, b) => way * (a - b));
   const next = rows.find((r) => way * (r - store.row) > 0);
   if (next !== undefined) store.select(store.curve, next);
 }

@@ -1,7 +1,14 @@
 // The mechanism in three dimensions, drawn when something changes; without WebGL the drawing of `stick`.
 
 import {
-  AmbientLight, DirectionalLight, Group, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+  AmbientLight,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  PerspectiveCamera,
+  Scene,
+  Vector3,
+  WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { unpack } from "./data.js";
@@ -10,7 +17,8 @@ import { outermost, Stick, viewOf } from "./stick.js";
 
 const FIELD = 26;
 // a little from the side, so that depth is seen
-const SIDE = 0.22, ABOVE = 0.13;
+const SIDE = 0.22,
+  ABOVE = 0.13;
 
 /** Return the scene of a document with its meshes decoded. */
 export function sceneOf(scene) {
@@ -21,7 +29,9 @@ export function sceneOf(scene) {
 
 /** Return spheres [x, y, z, radius] round the shapes of poses: what a view must hold. */
 export function spheresOf(scene, poses) {
-  const found = [], p = new Vector3(), own = scene.geoms.map((g) => spheresOn(g, scene.meshes));
+  const found = [],
+    p = new Vector3(),
+    own = scene.geoms.map((g) => spheresOn(g, scene.meshes));
   for (const [k, g] of scene.geoms.entries()) if (g.body < 0) found.push(...own[k]);
   for (const { bodies } of poses)
     for (const [k, g] of scene.geoms.entries()) {
@@ -37,7 +47,9 @@ export function spheresOf(scene, poses) {
 
 /** Return spheres round a shape in the frame of its body; none round an endless plane. */
 function spheresOn(g, meshes) {
-  const p = new Vector3(), [w, x, y, z] = g.quat, [a, b, c] = g.size;
+  const p = new Vector3(),
+    [w, x, y, z] = g.quat,
+    [a, b, c] = g.size;
   const at = (u, v, t, r) => {
     p.set(u, v, t).applyQuaternion({ x, y, z, w });
     return [p.x + g.pos[0], p.y + g.pos[1], p.z + g.pos[2], r];
@@ -46,7 +58,10 @@ function spheresOn(g, meshes) {
   if (g.type === "sphere") return [at(0, 0, 0, a)];
   if (g.type === "ellipsoid") return [at(0, 0, 0, Math.max(a, b, c))];
   if (g.type === "capsule" || g.type === "cylinder") return [at(0, 0, b, a), at(0, 0, -b, a)];
-  const corners = g.type === "box" ? [-a, a].flatMap((u) => [-b, b].flatMap((v) => [-c, c].map((t) => [u, v, t]))) : outermost(meshes[g.mesh].vertices);
+  const corners =
+    g.type === "box"
+      ? [-a, a].flatMap((u) => [-b, b].flatMap((v) => [-c, c].map((t) => [u, v, t])))
+      : outermost(meshes[g.mesh].vertices);
   return corners.map(([u, v, t]) => at(u, v, t, 0));
 }
 
@@ -56,7 +71,8 @@ export class Mechanism {
     this.scene = scene;
     this.label = label;
     this.renderer = null;
-    const canvas = document.createElement("canvas"), context = canvas.getContext("webgl2", { antialias: true, alpha: true });
+    const canvas = document.createElement("canvas"),
+      context = canvas.getContext("webgl2", { antialias: true, alpha: true });
     if (context) this.begin(canvas, context);
     else this.stick = new Stick(host, scene, label);
     host.dataset.drawn = this.renderer ? "webgl" : "svg";
@@ -120,7 +136,8 @@ export class Mechanism {
   reshape(shapes) {
     for (const [k, geom] of this.scene.geoms.entries()) {
       if (10 * k + 10 > shapes.length) break;
-      const row = shapes.subarray(10 * k, 10 * k + 10), mesh = this.shapes[k];
+      const row = shapes.subarray(10 * k, 10 * k + 10),
+        mesh = this.shapes[k];
       mesh.position.set(row[0], row[1], row[2]);
       mesh.quaternion.set(row[4], row[5], row[6], row[3]);
       if (geom.type !== "mesh" && geom.type !== "plane") resize(mesh, geom, row.subarray(7, 10));
@@ -156,9 +173,13 @@ export class Mechanism {
   }
 
   stand() {
-    const { camera, direction, spheres } = this, up = new Vector3().fromArray(this.scene.up);
-    const right = up.clone().cross(direction).normalize(), over = direction.clone().cross(right);
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity], axes = [right, over, direction];
+    const { camera, direction, spheres } = this,
+      up = new Vector3().fromArray(this.scene.up);
+    const right = up.clone().cross(direction).normalize(),
+      over = direction.clone().cross(right);
+    const low = [Infinity, Infinity, Infinity],
+      high = [-Infinity, -Infinity, -Infinity],
+      axes = [right, over, direction];
     const p = new Vector3();
     for (const [x, y, z, r] of spheres)
       for (const [k, axis] of axes.entries()) {
@@ -167,7 +188,8 @@ export class Mechanism {
         high[k] = Math.max(high[k], d + r);
       }
     if (!(high[0] >= low[0])) return;
-    const half = [0, 1].map((k) => Math.max(0.55 * (high[k] - low[k]), 1e-3)), slope = Math.tan((FIELD * Math.PI) / 360);
+    const half = [0, 1].map((k) => Math.max(0.55 * (high[k] - low[k]), 1e-3)),
+      slope = Math.tan((FIELD * Math.PI) / 360);
     const far = Math.max(half[1] / slope, half[0] / (slope * camera.aspect)) + 0.5 * (high[2] - low[2]);
     const centre = new Vector3();
     for (const [k, axis] of axes.entries()) centre.addScaledVector(axis, 0.5 * (low[k] + high[k]));

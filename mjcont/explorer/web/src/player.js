@@ -10,11 +10,23 @@ const FASTEST = 20;
 export class Player {
   constructor(host, store) {
     Object.assign(this, { store, playing: false });
-    this.button = h("button", { class: "play", "aria-label": "Play", title: "Play (space)", onclick: () => this.toggle() }, icon("play"));
-    this.slider = h("input", { type: "range", min: 0, step: 1, value: 0, class: "row-slider", "aria-label": "Row of the curve", oninput: () => {
-      this.stop();
-      store.select(store.curve, Number(this.slider.value), store.sample);
-    } });
+    this.button = h(
+      "button",
+      { class: "play", "aria-label": "Play", title: "Play (space)", onclick: () => this.toggle() },
+      icon("play"),
+    );
+    this.slider = h("input", {
+      type: "range",
+      min: 0,
+      step: 1,
+      value: 0,
+      class: "row-slider",
+      "aria-label": "Row of the curve",
+      oninput: () => {
+        this.stop();
+        store.select(store.curve, Number(this.slider.value), store.sample);
+      },
+    });
     this.says = h("span", { class: "says" });
     host.append(this.button, this.slider, this.says);
     for (const event of ["curve", "curves"]) store.on(event, () => this.begin());
@@ -33,7 +45,8 @@ export class Player {
     const { curve, row, quantities } = this.store;
     if (!curve) return;
     this.slider.value = row;
-    const name = curve.axes[0], column = curve.columns[name];
+    const name = curve.axes[0],
+      column = curve.columns[name];
     const words = column ? shown(column[row], quantities[name], 4) : "";
     this.slider.setAttribute("aria-valuetext", `row ${row + 1} of ${curve.rows}, ${words}`);
     this.says.textContent = curve.stability?.[row] === JUMPING ? "jumping" : words;
@@ -55,12 +68,17 @@ export class Player {
   }
 
   play() {
-    const { store } = this, { curve } = store;
+    const { store } = this,
+      { curve } = store;
     if (!curve?.rows) return;
     this.playing = true;
     this.show();
     if (!curve.orbit && store.row >= curve.rows - 1) store.select(curve, 0);
-    const step = curve.orbit ? this.ofOrbit(curve) : curve.kind === "history" ? this.ofHistory(curve) : this.ofRows(curve);
+    const step = curve.orbit
+      ? this.ofOrbit(curve)
+      : curve.kind === "history"
+        ? this.ofHistory(curve)
+        : this.ofRows(curve);
     const begun = performance.now();
     const tick = (now) => {
       if (!this.playing || store.curve !== curve) return this.stop();
@@ -72,7 +90,8 @@ export class Player {
 
   /** Rows at an even pace; jumps of a load path are rows of their own. */
   ofRows(curve) {
-    const first = this.store.row, pace = Math.max(curve.rows - 1, 1) / SECONDS;
+    const first = this.store.row,
+      pace = Math.max(curve.rows - 1, 1) / SECONDS;
     return (t) => {
       const row = first + Math.round(t * pace);
       this.store.select(curve, row);
@@ -81,7 +100,9 @@ export class Player {
   }
 
   ofHistory(curve) {
-    const times = curve.columns.time, from = times[this.store.row], pace = Math.max(1, times.at(-1) / FASTEST);
+    const times = curve.columns.time,
+      from = times[this.store.row],
+      pace = Math.max(1, times.at(-1) / FASTEST);
     let row = this.store.row;
     return (t) => {
       while (row < curve.rows - 1 && times[row] < from + pace * t) row++;
@@ -91,7 +112,8 @@ export class Player {
   }
 
   ofOrbit(curve) {
-    const samples = Object.values(curve.orbit.columns)[0].shape[1], first = this.store.sample;
+    const samples = Object.values(curve.orbit.columns)[0].shape[1],
+      first = this.store.sample;
     return (t) => {
       const k = curve.orbit.period[0] > 0 ? Math.min(Math.max(curve.orbit.period[0], 1.2), 5) : 2;
       this.store.select(curve, this.store.row, (first + Math.round((t / k) * (samples - 1))) % (samples - 1));

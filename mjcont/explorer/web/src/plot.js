@@ -11,7 +11,8 @@ import { nameIntoSvg, tick } from "./words.js";
 
 const MARGIN = { right: 14, top: 12, bottom: 44 };
 // beside the axis: the title, ticks, and what a digit takes
-const BESIDE = 34, DIGIT = 6.6;
+const BESIDE = 34,
+  DIGIT = 6.6;
 const MOST_INK = 1500;
 let clips = 0;
 
@@ -23,11 +24,17 @@ export class Plot {
     this.clip = `mjx-clip-${++clips}`;
     this.svg = s("svg", { class: "plot", role: "img", "aria-label": label });
     this.box = s("rect");
-    this.layers = Object.fromEntries(["grid", "x", "y", "lines", "over", "points", "labels"].map((n) => [n, s("g", { class: n })]));
+    this.layers = Object.fromEntries(
+      ["grid", "x", "y", "lines", "over", "points", "labels"].map((n) => [n, s("g", { class: n })]),
+    );
     this.layers.lines.setAttribute("clip-path", `url(#${this.clip})`);
     this.layers.over.setAttribute("clip-path", `url(#${this.clip})`);
     this.titles = [s("text", { class: "axis-title" }), s("text", { class: "axis-title" })];
-    this.svg.append(s("defs", {}, s("clipPath", { id: this.clip }, this.box)), ...Object.values(this.layers), ...this.titles);
+    this.svg.append(
+      s("defs", {}, s("clipPath", { id: this.clip }, this.box)),
+      ...Object.values(this.layers),
+      ...this.titles,
+    );
     this.dot = h("div", { class: "marker", "aria-hidden": "true" });
     host.append(this.svg, this.dot);
     this.content = null;
@@ -36,7 +43,8 @@ export class Plot {
   }
 
   enableZoom() {
-    this.zoom = zoom().scaleExtent([1, 4000])
+    this.zoom = zoom()
+      .scaleExtent([1, 4000])
       .filter((e) => e.type === "wheel" || e.touches?.length > 1 || (e.type === "mousedown" && e.shiftKey))
       .on("zoom", ({ transform }) => {
         this.transform = transform;
@@ -63,16 +71,48 @@ export class Plot {
   render() {
     const { width, height } = this.host.getBoundingClientRect();
     if (width < 40 || height < 40) return;
-    const { x, y, lines } = this.content, ends = (axis, values) => axis.extent ?? extentOf(values);
+    const { x, y, lines } = this.content,
+      ends = (axis, values) => axis.extent ?? extentOf(values);
     const [y0, y1] = [MARGIN.top, height - MARGIN.bottom];
-    this.y = this.zoomed("rescaleY", scaleFor(ends(y, lines.map((l) => l.ys)), [y1, y0], y.kind, y.typical));
+    this.y = this.zoomed(
+      "rescaleY",
+      scaleFor(
+        ends(
+          y,
+          lines.map((l) => l.ys),
+        ),
+        [y1, y0],
+        y.kind,
+        y.typical,
+      ),
+    );
     const yTicks = ticksOf(this.y, Math.max(2, Math.floor((y1 - y0) / 44)));
     const [x0, x1] = [BESIDE + DIGIT * Math.max(...yTicks.map((v) => tick(v).length), 2), width - MARGIN.right];
     this.inner = [x0, y0, x1, y1];
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    for (const [key, value] of Object.entries({ x: x0, y: y0, width: x1 - x0, height: y1 - y0 })) this.box.setAttribute(key, value);
-    this.zoom?.extent([[x0, y0], [x1, y1]]).translateExtent([[x0, y0], [x1, y1]]);
-    this.x = this.zoomed("rescaleX", scaleFor(ends(x, lines.map((l) => l.xs)), [x0, x1], x.kind, x.typical));
+    for (const [key, value] of Object.entries({ x: x0, y: y0, width: x1 - x0, height: y1 - y0 }))
+      this.box.setAttribute(key, value);
+    this.zoom
+      ?.extent([
+        [x0, y0],
+        [x1, y1],
+      ])
+      .translateExtent([
+        [x0, y0],
+        [x1, y1],
+      ]);
+    this.x = this.zoomed(
+      "rescaleX",
+      scaleFor(
+        ends(
+          x,
+          lines.map((l) => l.xs),
+        ),
+        [x0, x1],
+        x.kind,
+        x.typical,
+      ),
+    );
     if (this.content.equal) this.equalise();
     this.drawAxes(yTicks);
     this.drawLines();
@@ -85,23 +125,30 @@ export class Plot {
 
   /** Give both axes one scale: a circle is round. */
   equalise() {
-    const [x0, y0, x1, y1] = this.inner, per = (scale, pixels) => (scale.domain()[1] - scale.domain()[0]) / pixels;
+    const [x0, y0, x1, y1] = this.inner,
+      per = (scale, pixels) => (scale.domain()[1] - scale.domain()[0]) / pixels;
     const size = Math.max(per(this.x, x1 - x0), per(this.y, y1 - y0));
-    for (const [scale, pixels] of [[this.x, x1 - x0], [this.y, y1 - y0]]) {
-      const [low, high] = scale.domain(), middle = (low + high) / 2;
+    for (const [scale, pixels] of [
+      [this.x, x1 - x0],
+      [this.y, y1 - y0],
+    ]) {
+      const [low, high] = scale.domain(),
+        middle = (low + high) / 2;
       scale.domain([middle - (size * pixels) / 2, middle + (size * pixels) / 2]);
     }
   }
 
   zoomed(how, scale) {
     if (this.transform === zoomIdentity || this.transform.k === 1) return scale;
-    const ticks = Object.hasOwn(scale, "ticks") ? scale.ticks : null, other = this.transform[how](scale);
+    const ticks = Object.hasOwn(scale, "ticks") ? scale.ticks : null,
+      other = this.transform[how](scale);
     if (ticks && scale.constant) other.ticks = (count) => ticks(count).filter((v) => between(v, other.domain()));
     return other;
   }
 
   drawAxes(yTicks) {
-    const [x0, y0, x1, y1] = this.inner, xTicks = ticksOf(this.x, Math.max(2, Math.floor((x1 - x0) / 80)));
+    const [x0, y0, x1, y1] = this.inner,
+      xTicks = ticksOf(this.x, Math.max(2, Math.floor((x1 - x0) / 80)));
     const bottom = axisBottom(this.x).tickValues(xTicks).tickFormat(tick).tickSize(4).tickPadding(5);
     const left = axisLeft(this.y).tickValues(yTicks).tickFormat(tick).tickSize(4).tickPadding(5);
     select(this.layers.x).attr("transform", `translate(0,${y1})`).call(bottom);
@@ -115,7 +162,8 @@ export class Plot {
       ...yTicks.map((v) => line(x0, this.y(v), x1, this.y(v), v === 0)),
     ];
     this.layers.grid.replaceChildren(...grid);
-    const { x, y } = this.content, [below, beside] = this.titles;
+    const { x, y } = this.content,
+      [below, beside] = this.titles;
     nameIntoSvg(below, x.quantity, x.name, x.suffix);
     nameIntoSvg(beside, y.quantity, y.name, y.suffix);
     below.setAttribute("x", (x0 + x1) / 2);
@@ -127,10 +175,14 @@ export class Plot {
     const paths = [];
     this.ink = [];
     for (const l of this.content.lines) {
-      const px = pixels(l.xs, this.x), py = pixels(l.ys, this.y);
+      const px = pixels(l.xs, this.x),
+        py = pixels(l.ys, this.y);
       l.px = px;
       l.py = py;
-      for (const run of l.runs) paths.push(s("path", { class: `line ${l.cls ?? ""} ${run.cls ?? ""}`, d: pathOf(px, py, run.first, run.last, l.turn) }));
+      for (const run of l.runs)
+        paths.push(
+          s("path", { class: `line ${l.cls ?? ""} ${run.cls ?? ""}`, d: pathOf(px, py, run.first, run.last, l.turn) }),
+        );
       const every = Math.max(1, Math.floor(px.length / (MOST_INK / this.content.lines.length)));
       for (let i = 0; i < px.length; i += every) if (inside(px[i], py[i], this.inner)) this.ink.push([px[i], py[i]]);
     }
@@ -139,25 +191,40 @@ export class Plot {
 
   drawPoints() {
     const { points = [] } = this.content;
-    const seen = points.map((p) => ({ ...p, px: this.x(p.x), py: this.y(p.y) })).filter((p) => inside(p.px, p.py, this.inner, 1));
-    const marks = seen.map((p) => s("path", {
-      class: `point ${p.cls ?? ""}`, d: markerPath(p.kind), transform: `translate(${p.px.toFixed(1)},${p.py.toFixed(1)})`,
-    }));
+    const seen = points
+      .map((p) => ({ ...p, px: this.x(p.x), py: this.y(p.y) }))
+      .filter((p) => inside(p.px, p.py, this.inner, 1));
+    const marks = seen.map((p) =>
+      s("path", {
+        class: `point ${p.cls ?? ""}`,
+        d: markerPath(p.kind),
+        transform: `translate(${p.px.toFixed(1)},${p.py.toFixed(1)})`,
+      }),
+    );
     this.layers.points.replaceChildren(...marks);
     const [x0, y0, x1, y1] = this.inner;
     const shifted = seen.filter((p) => p.label).map((p) => ({ ...p, px: p.px - x0, py: p.py - y0 }));
-    const placed = placeLabels(shifted, this.ink.map(([a, b]) => [a - x0, b - y0]), [x1 - x0, y1 - y0]);
-    this.layers.labels.replaceChildren(...placed.filter((p) => !p.hidden).map((p) => {
-      const text = s("text", { x: p.lx + x0, y: p.ly + y0, "text-anchor": "middle" });
-      text.textContent = p.text;
-      return text;
-    }));
+    const placed = placeLabels(
+      shifted,
+      this.ink.map(([a, b]) => [a - x0, b - y0]),
+      [x1 - x0, y1 - y0],
+    );
+    this.layers.labels.replaceChildren(
+      ...placed
+        .filter((p) => !p.hidden)
+        .map((p) => {
+          const text = s("text", { x: p.lx + x0, y: p.ly + y0, "text-anchor": "middle" });
+          text.textContent = p.text;
+          return text;
+        }),
+    );
   }
 
   /** Put the marker at a place as shown, [x, y]; hide it for null. */
   place(at) {
     this.at = at;
-    const px = at && this.x ? this.x(at[0]) : NaN, py = at && this.y ? this.y(at[1]) : NaN;
+    const px = at && this.x ? this.x(at[0]) : NaN,
+      py = at && this.y ? this.y(at[1]) : NaN;
     const there = this.inner && inside(px, py, this.inner, 8);
     this.dot.style.opacity = there ? "1" : "0";
     if (there) this.dot.style.transform = `translate(${px.toFixed(2)}px,${py.toFixed(2)}px)`;
@@ -183,9 +250,12 @@ function pixels(values, scale) {
 /** Return the path of rows first .. last; points closer than a third of a pixel are one. */
 function pathOf(px, py, first, last, turn) {
   const parts = [];
-  let lx = NaN, ly = NaN, pen = "M";
+  let lx = NaN,
+    ly = NaN,
+    pen = "M";
   for (let i = first; i <= last; i++) {
-    const x = px[i], y = py[i];
+    const x = px[i],
+      y = py[i];
     if (!(Number.isFinite(x) && Number.isFinite(y))) {
       pen = "M";
       continue;
@@ -203,15 +273,23 @@ function inside(x, y, [x0, y0, x1, y1], room = 0) {
 }
 
 function line(x1, y1, x2, y2, zero) {
-  return s("line", { x1: x1.toFixed(1), y1: y1.toFixed(1), x2: x2.toFixed(1), y2: y2.toFixed(1), class: zero ? "zero" : "" });
+  return s("line", {
+    x1: x1.toFixed(1),
+    y1: y1.toFixed(1),
+    x2: x2.toFixed(1),
+    y2: y2.toFixed(1),
+    class: zero ? "zero" : "",
+  });
 }
 
 /** Hide numbers beside an axis that would touch another one; the zero stays. */
 function spreadTicks(layer, sides, gap) {
-  const texts = [...layer.querySelectorAll(".tick text")], taken = [];
+  const texts = [...layer.querySelectorAll(".tick text")],
+    taken = [];
   const boxes = new Map(texts.map((text) => [text, sides(text.getBoundingClientRect())]));
   for (const text of texts.toSorted((a, b) => Number(b.textContent === "0") - Number(a.textContent === "0"))) {
-    const [low, high] = boxes.get(text), free = taken.every(([a, b]) => high + gap < a || b + gap < low);
+    const [low, high] = boxes.get(text),
+      free = taken.every(([a, b]) => high + gap < a || b + gap < low);
     text.style.visibility = free ? "" : "hidden";
     if (free) taken.push([low, high]);
   }

@@ -17,9 +17,25 @@ export class Readout {
     this.held = h("details", { class: "held" });
     this.notes = h("details", { class: "notes" });
     this.curves = h("div", { class: "curves", role: "group", "aria-label": "Curves" });
-    const head = h("thead", { class: "visually-hidden" }, h("tr", {}, h("th", { scope: "col" }, "quantity"), h("th", { scope: "col" }, "value")));
-    host.append(this.curves, h("div", { class: "heading" }, this.title, this.badge), this.live, this.chips, this.about,
-      h("table", { class: "values" }, h("caption", { class: "visually-hidden" }, "Values of the selected row"), head, this.table));
+    const head = h(
+      "thead",
+      { class: "visually-hidden" },
+      h("tr", {}, h("th", { scope: "col" }, "quantity"), h("th", { scope: "col" }, "value")),
+    );
+    host.append(
+      this.curves,
+      h("div", { class: "heading" }, this.title, this.badge),
+      this.live,
+      this.chips,
+      this.about,
+      h(
+        "table",
+        { class: "values" },
+        h("caption", { class: "visually-hidden" }, "Values of the selected row"),
+        head,
+        this.table,
+      ),
+    );
     this.after = [this.held, this.notes];
     for (const event of ["curves", "curve"]) store.on(event, () => this.begin());
     store.on("row", () => this.follow());
@@ -28,20 +44,49 @@ export class Readout {
 
   begin() {
     const { curve, curves, quantities } = this.store;
-    this.curves.replaceChildren(...(curves.filter((c) => c.rows).length > 1 ? curves.filter((c) => c.rows).map((c) => h("button", {
-      class: `curve-chip ${c.kind}`, "aria-pressed": String(c === curve), onclick: () => this.store.select(c, c === curve ? this.store.row : c.start ?? 0),
-    }, c.name)) : []));
+    this.curves.replaceChildren(
+      ...(curves.filter((c) => c.rows).length > 1
+        ? curves
+            .filter((c) => c.rows)
+            .map((c) =>
+              h(
+                "button",
+                {
+                  class: `curve-chip ${c.kind}`,
+                  "aria-pressed": String(c === curve),
+                  onclick: () => this.store.select(c, c === curve ? this.store.row : (c.start ?? 0)),
+                },
+                c.name,
+              ),
+            )
+        : []),
+    );
     if (!curve) return;
     this.names = Object.keys(curve.columns).filter((n) => n !== "time" || curve.kind === "history");
     this.cells = this.names.map((name) => {
-      const head = h("th", { scope: "row" }), cell = h("td");
+      const head = h("th", { scope: "row" }),
+        cell = h("td");
       nameInto(head, quantities[name], name);
       return { cell, row: h("tr", {}, head, cell), name };
     });
     this.table.replaceChildren(...this.cells.map((c) => c.row));
-    this.chips.replaceChildren(...curve.specials.filter((p) => p.kind !== "EP").map((p) => h("button", {
-      class: "chip", "data-row": p.row, title: p.name, "aria-label": `${p.label}, ${p.name}`, onclick: () => this.store.select(curve, p.row),
-    }, p.label)));
+    this.chips.replaceChildren(
+      ...curve.specials
+        .filter((p) => p.kind !== "EP")
+        .map((p) =>
+          h(
+            "button",
+            {
+              class: "chip",
+              "data-row": p.row,
+              title: p.name,
+              "aria-label": `${p.label}, ${p.name}`,
+              onclick: () => this.store.select(curve, p.row),
+            },
+            p.label,
+          ),
+        ),
+    );
     this.fillHeld(curve, quantities);
     this.fillNotes(curve);
     this.follow();
@@ -51,11 +96,15 @@ export class Readout {
     const held = Object.entries(curve.fixed ?? {}).filter(([n]) => !curve.columns[n]);
     this.held.hidden = !held.length;
     const rows = held.map(([name, value]) => {
-      const head = h("th", { scope: "row" }), slider = this.store.document.sliders.find((x) => x.name === name);
+      const head = h("th", { scope: "row" }),
+        slider = this.store.document.sliders.find((x) => x.name === name);
       nameInto(head, slider?.shown ?? quantities[name], name);
       return h("tr", {}, head, h("td", {}, shown(value, slider?.shown ?? quantities[name])));
     });
-    this.held.replaceChildren(h("summary", {}, `Held: ${held.length} parameters`), h("table", { class: "values" }, h("tbody", {}, ...rows)));
+    this.held.replaceChildren(
+      h("summary", {}, `Held: ${held.length} parameters`),
+      h("table", { class: "values" }, h("tbody", {}, ...rows)),
+    );
   }
 
   fillNotes(curve) {
@@ -71,7 +120,8 @@ export class Readout {
       const text = shown(curve.columns[name][row], quantities[name]);
       if (cell.textContent !== text) cell.textContent = text;
     }
-    const code = curve.stability?.[row], word = curve.stability ? STABILITY[code] : "";
+    const code = curve.stability?.[row],
+      word = curve.stability ? STABILITY[code] : "";
     this.head.textContent = special ? `${special.label}, ${special.name}` : curve.name;
     this.where.textContent = `row ${row + 1} of ${curve.rows}${special ? `, ${curve.name}` : ""}`;
     this.badge.hidden = !word || (special && code === MARGINAL);

@@ -6,7 +6,8 @@ const DECADES = 1000;
 
 /** Return [low, high] of finite numbers in arrays; null if there are none. */
 export function extentOf(arrays) {
-  let low = Infinity, high = -Infinity;
+  let low = Infinity,
+    high = -Infinity;
   for (const array of arrays)
     for (let i = 0; i < array.length; i++) {
       const v = array[i];
@@ -18,7 +19,8 @@ export function extentOf(arrays) {
 
 /** Return an extent with room around it; what does not vary gets room of its own size. */
 export function padded([low, high], part = 0.05) {
-  const span = high - low, size = Math.max(Math.abs(low), Math.abs(high)) || 1;
+  const span = high - low,
+    size = Math.max(Math.abs(low), Math.abs(high)) || 1;
   const room = span > 1e-9 * size ? part * span : 0.1 * size;
   return [low - room, high + room];
 }
@@ -29,15 +31,22 @@ export function scaleFor(extent, range, kind, typical = 0) {
   if (kind === "symlog") {
     const largest = Math.max(Math.abs(low), Math.abs(high), 1e-9);
     const constant = 10 ** Math.floor(Math.log10(typical > 0 ? Math.min(typical, largest) : largest) - 1.5);
-    const scale = scaleSymlog().constant(constant).domain(spread(low, high, constant)).range(range);
+    const scale = scaleSymlog()
+      .constant(constant)
+      .domain(spread(low, high, constant))
+      .range(range);
     scale.ticks = (count) => symlogTicks(scale.domain(), constant, count);
     return scale;
   }
   if (kind === "log" && low > 0 && high / low > DECADES) {
     const room = (high / low) ** 0.04;
-    return scaleLog().domain([low / room, high * room]).range(range);
+    return scaleLog()
+      .domain([low / room, high * room])
+      .range(range);
   }
-  return scaleLinear().domain(padded([low, high])).range(range);
+  return scaleLinear()
+    .domain(padded([low, high]))
+    .range(range);
 }
 
 function spread(low, high, constant) {

@@ -1,8 +1,22 @@
 // Shapes of a model as three.js draws them. Lengths in m; a shape stands on its body, MuJoCo's axes throughout.
 
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, CapsuleGeometry, Color, CylinderGeometry, DoubleSide, FrontSide, Mesh,
-  MeshStandardMaterial, PlaneGeometry, SphereGeometry, SRGBColorSpace, TubeGeometry, Curve, Vector3,
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  CapsuleGeometry,
+  Color,
+  CylinderGeometry,
+  DoubleSide,
+  FrontSide,
+  Mesh,
+  MeshStandardMaterial,
+  PlaneGeometry,
+  SphereGeometry,
+  SRGBColorSpace,
+  TubeGeometry,
+  Curve,
+  Vector3,
 } from "three";
 
 const UNIT = { cylinder: null, sphere: null };
@@ -56,14 +70,19 @@ function geometryOf(geom, geometries) {
 
 export function materialOf([r, g, b, a], ground = false) {
   return new MeshStandardMaterial({
-    color: new Color().setRGB(r, g, b, SRGBColorSpace), roughness: 0.62, metalness: 0.08, transparent: a < 1 || ground,
-    opacity: ground ? Math.min(a, 0.5) : a, side: ground ? DoubleSide : FrontSide,
+    color: new Color().setRGB(r, g, b, SRGBColorSpace),
+    roughness: 0.62,
+    metalness: 0.08,
+    transparent: a < 1 || ground,
+    opacity: ground ? Math.min(a, 0.5) : a,
+    side: ground ? DoubleSide : FrontSide,
   });
 }
 
 class Helix extends Curve {
   getPoint(t, target = new Vector3()) {
-    const angle = 2 * Math.PI * COILS * t, r = Math.min(1, 12 * t, 12 * (1 - t));
+    const angle = 2 * Math.PI * COILS * t,
+      r = Math.min(1, 12 * t, 12 * (1 - t));
     return target.set(r * Math.cos(angle), r * Math.sin(angle), t - 0.5);
   }
 }
@@ -76,8 +95,11 @@ export class Tendons {
     for (const t of tendons) {
       const material = materialOf(t.rgba);
       for (let i = 0; i + 1 < t.points; i++) {
-        const rod = new Mesh(UNIT.cylinder ??= new CylinderGeometry(1, 1, 2, 28).rotateX(Math.PI / 2), material);
-        const coil = t.spring && t.points === 4 && i === 0 ? new Mesh(new TubeGeometry(new Helix(), 160, 0.22, 6), material) : null;
+        const rod = new Mesh((UNIT.cylinder ??= new CylinderGeometry(1, 1, 2, 28).rotateX(Math.PI / 2)), material);
+        const coil =
+          t.spring && t.points === 4 && i === 0
+            ? new Mesh(new TubeGeometry(new Helix(), 160, 0.22, 6), material)
+            : null;
         parent.add(rod);
         if (coil) parent.add(coil);
         this.legs.push({ rod, coil, at: at + i, width: t.width });
@@ -92,7 +114,8 @@ export class Tendons {
     for (const { rod, coil, at, width } of this.legs) {
       const [x0, y0, z0, x1, y1, z1] = points.subarray(3 * at, 3 * at + 6);
       this.along.set(x1 - x0, y1 - y0, z1 - z0);
-      const length = this.along.length(), there = length > 1e-9;
+      const length = this.along.length(),
+        there = length > 1e-9;
       rod.visible = there;
       if (coil) coil.visible = there;
       if (!there) continue;

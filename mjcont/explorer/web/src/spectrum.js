@@ -1,6 +1,6 @@
 // Eigenvalues of the row, or Floquet multipliers about the unit circle.
 
-import { eigenvaluesOf } from "./data.js";
+import { eigenvaluesOf, JUMPING } from "./data.js";
 import { s } from "./dom.js";
 import { Plot } from "./plot.js";
 
@@ -42,8 +42,9 @@ export class Spectrum {
       const rx = Math.abs(plot.x(1) - plot.x(0)), ry = Math.abs(plot.y(1) - plot.y(0));
       layer.append(s("ellipse", { class: "axis-line", cx: plot.x(0), cy: plot.y(0), rx, ry }));
     } else layer.append(s("rect", { class: "unstable-side", x: plot.x(0), y: y0, width: Math.max(0, x1 - plot.x(0)), height: y1 - y0 }));
-    this.panel.say(curve.eigenvalues ? "" : curve.kind === "history" || curve.kind === "loadpath" ? "none in motion" : "none here");
     const unstable = curve.unstable?.[row] ?? 0, found = eigenvaluesOf(curve, row);
+    const moving = curve.kind === "history" || curve.stability?.[row] === JUMPING;
+    this.panel.say(found.length ? "" : moving ? "none in motion" : "not computed here");
     const size = (v) => (curve.multipliers ? Math.hypot(...v) : v[0]);
     found.sort((a, b) => size(b) - size(a));
     for (const [k, v] of found.entries()) {

@@ -33,18 +33,23 @@ export class Stick {
     const [right, up] = this.axes;
     const box = [Infinity, Infinity, -Infinity, -Infinity];
     for (const [x, y, z, r] of spheres) {
-      const p = new Vector3(x, y, z), u = p.dot(right), v = -p.dot(up);
-      box[0] = Math.min(box[0], u - r), box[1] = Math.min(box[1], v - r);
-      box[2] = Math.max(box[2], u + r), box[3] = Math.max(box[3], v + r);
+      const p = new Vector3(x, y, z),
+        u = p.dot(right),
+        v = -p.dot(up);
+      ((box[0] = Math.min(box[0], u - r)), (box[1] = Math.min(box[1], v - r)));
+      ((box[2] = Math.max(box[2], u + r)), (box[3] = Math.max(box[3], v + r)));
     }
     if (!spheres.length) box.splice(0, 4, -1, -1, 1, 1);
-    const width = Math.max(box[2] - box[0], 1e-6), height = Math.max(box[3] - box[1], 1e-6), room = 0.06 * Math.max(width, height);
+    const width = Math.max(box[2] - box[0], 1e-6),
+      height = Math.max(box[3] - box[1], 1e-6),
+      room = 0.06 * Math.max(width, height);
     this.svg.setAttribute("viewBox", `${box[0] - room} ${box[1] - room} ${width + 2 * room} ${height + 2 * room}`);
     this.size = Math.max(width, height);
   }
 
   pose(pose) {
-    const parts = [], [, , toward] = this.axes;
+    const parts = [],
+      [, , toward] = this.axes;
     const frames = framesOf(pose.bodies, this.scene.bodies.length);
     for (const [k, geom] of this.scene.geoms.entries()) {
       const place = placeOf(geom, frames, pose.shapes, k);
@@ -56,9 +61,19 @@ export class Stick {
     const tendons = [];
     for (const t of this.scene.tendons) {
       const path = [];
-      for (let i = 0; i < t.points; i++) path.push(this.flat(new Vector3(...pose.tendons.subarray(3 * (at + i), 3 * (at + i) + 3))));
+      for (let i = 0; i < t.points; i++)
+        path.push(this.flat(new Vector3(...pose.tendons.subarray(3 * (at + i), 3 * (at + i) + 3))));
       at += t.points;
-      tendons.push(s("path", { class: "tendon", d: pathOf(path), fill: "none", stroke: colour(t.rgba), "stroke-width": 2 * t.width, "stroke-linecap": "round" }));
+      tendons.push(
+        s("path", {
+          class: "tendon",
+          d: pathOf(path),
+          fill: "none",
+          stroke: colour(t.rgba),
+          "stroke-width": 2 * t.width,
+          "stroke-linecap": "round",
+        }),
+      );
     }
     this.svg.replaceChildren(...parts.map((p) => p[0]), ...tendons);
   }
@@ -69,16 +84,27 @@ export class Stick {
   }
 
   drawn(geom, place, corners, shapes, k) {
-    const fill = colour(geom.rgba), size = sizeOf(geom, shapes, k);
+    const fill = colour(geom.rgba),
+      size = sizeOf(geom, shapes, k);
     if (geom.type === "sphere" || geom.type === "ellipsoid") {
       const [cx, cy] = this.flat(new Vector3().setFromMatrixPosition(place));
       return s("circle", { cx, cy, r: geom.type === "sphere" ? size[0] : Math.max(...size), fill });
     }
     if (geom.type === "capsule" || geom.type === "cylinder") {
-      const a = this.flat(new Vector3(0, 0, size[1]).applyMatrix4(place)), b = this.flat(new Vector3(0, 0, -size[1]).applyMatrix4(place));
-      if (Math.hypot(a[0] - b[0], a[1] - b[1]) < 0.3 * size[0]) return s("circle", { cx: a[0], cy: a[1], r: size[0], fill });
+      const a = this.flat(new Vector3(0, 0, size[1]).applyMatrix4(place)),
+        b = this.flat(new Vector3(0, 0, -size[1]).applyMatrix4(place));
+      if (Math.hypot(a[0] - b[0], a[1] - b[1]) < 0.3 * size[0])
+        return s("circle", { cx: a[0], cy: a[1], r: size[0], fill });
       const cap = geom.type === "capsule" ? "round" : "butt";
-      return s("line", { x1: a[0], y1: a[1], x2: b[0], y2: b[1], stroke: fill, "stroke-width": 2 * size[0], "stroke-linecap": cap });
+      return s("line", {
+        x1: a[0],
+        y1: a[1],
+        x2: b[0],
+        y2: b[1],
+        stroke: fill,
+        "stroke-width": 2 * size[0],
+        "stroke-linecap": cap,
+      });
     }
     if (!corners?.length) return null;
     const hull = hullOf(corners.map((c) => this.flat(c.clone().applyMatrix4(place))));
@@ -98,13 +124,16 @@ export function framesOf(bodies, count) {
 
 function placeOf(geom, frames, shapes, k) {
   const row = shapes && k * 10 + 10 <= shapes.length ? shapes.subarray(10 * k, 10 * k + 7) : null;
-  const pos = row ? row.subarray(0, 3) : geom.pos, [w, x, y, z] = row ? row.subarray(3, 7) : geom.quat;
+  const pos = row ? row.subarray(0, 3) : geom.pos,
+    [w, x, y, z] = row ? row.subarray(3, 7) : geom.quat;
   const local = new Matrix4().compose(new Vector3(...pos), new Quaternion(x, y, z, w), new Vector3(1, 1, 1));
   return geom.body < 0 ? local : frames[geom.body].clone().multiply(local);
 }
 
 function sizeOf(geom, shapes, k) {
-  return shapes && k * 10 + 10 <= shapes.length && geom.type !== "plane" ? shapes.subarray(10 * k + 7, 10 * k + 10) : geom.size;
+  return shapes && k * 10 + 10 <= shapes.length && geom.type !== "plane"
+    ? shapes.subarray(10 * k + 7, 10 * k + 10)
+    : geom.size;
 }
 
 /** Return points whose hull is what a shape covers: of a mesh the outermost ones in many directions. */
@@ -113,7 +142,13 @@ function cornersOf(geom, meshes) {
     const [a, b, c] = geom.size;
     return [-1, 1].flatMap((x) => [-1, 1].flatMap((y) => [-1, 1].map((z) => new Vector3(a * x, b * y, c * z))));
   }
-  if (geom.type === "plane") return [[-1, -1], [-1, 1], [1, 1], [1, -1]].map(([x, y]) => new Vector3(x * geom.size[0], y * geom.size[1], 0));
+  if (geom.type === "plane")
+    return [
+      [-1, -1],
+      [-1, 1],
+      [1, 1],
+      [1, -1],
+    ].map(([x, y]) => new Vector3(x * geom.size[0], y * geom.size[1], 0));
   if (geom.type !== "mesh") return null;
   return outermost(meshes[geom.mesh].vertices).map((p) => new Vector3(...p));
 }
@@ -122,8 +157,11 @@ function cornersOf(geom, meshes) {
 export function outermost(v) {
   const found = new Set();
   for (let n = 0; n < MOST_CORNERS; n++) {
-    const z = 1 - (2 * n + 1) / MOST_CORNERS, r = Math.sqrt(1 - z * z), a = GOLDEN * n;
-    let best = 0, far = -Infinity;
+    const z = 1 - (2 * n + 1) / MOST_CORNERS,
+      r = Math.sqrt(1 - z * z),
+      a = GOLDEN * n;
+    let best = 0,
+      far = -Infinity;
     for (let i = 0; i < v.length; i += 3) {
       const d = v[i] * r * Math.cos(a) + v[i + 1] * r * Math.sin(a) + v[i + 2] * z;
       if (d > far) [best, far] = [i, d];

@@ -5,7 +5,9 @@ const MINUS = "\u2212";
 /** Return what a quantity is called, in one line: "θ ov", "gravity angle". */
 export function plainName(quantity, name) {
   const parts = quantity?.label ?? [[name, "", ""]];
-  return parts.map(([head, below, behind]) => `${head}${below ? `_${below.replaceAll(" ", "_")}` : ""}${behind}`).join(" ");
+  return parts
+    .map(([head, below, behind]) => `${head}${below ? `_${below.replaceAll(" ", "_")}` : ""}${behind}`)
+    .join(" ");
 }
 
 /** Put a name into an HTML element, subscripts below. */
@@ -67,7 +69,8 @@ function exponent(value, count) {
 
 /** Return a value in SI as it is shown, with its unit. */
 export function shown(value, quantity, count = 6) {
-  const text = digits(value * (quantity?.scale ?? 1), count), unit = quantity?.unit ?? "";
+  const text = digits(value * (quantity?.scale ?? 1), count),
+    unit = quantity?.unit ?? "";
   return unit === "°" ? `${text}°` : unit ? `${text} ${unit}` : text;
 }
 
@@ -75,7 +78,8 @@ const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
 /** Return the label of an axis's number; far powers of ten are written as such. */
 export function tick(value) {
-  const power = Math.round(Math.log10(Math.abs(value))), far = power >= 4 || power <= -3;
+  const power = Math.round(Math.log10(Math.abs(value))),
+    far = power >= 4 || power <= -3;
   if (!far || value === 0 || Math.abs(Math.abs(value) / 10 ** power - 1) > 1e-9) return digits(value, 4);
   const raised = [...String(Math.abs(power))].map((d) => RAISED[d]).join("");
   return `${value < 0 ? MINUS : ""}10${power < 0 ? "⁻" : ""}${raised}`;
