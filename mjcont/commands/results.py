@@ -97,8 +97,11 @@ def export(args: argparse.Namespace) -> int:
             raise MjcontError(f"a table is of one result, got {len(args.files)}; a page (-o page.html) takes several")
         written = load(args.files[0]).to_csv(out, degrees=args.degrees)
     else:
+        from mjcont.explorer.opening import study_of
         from mjcont.explorer.page import write_page
 
-        written = write_page(out, {Path(f).stem: load(f) for f in args.files}, title=args.title)
+        found = {Path(f): load(f) for f in args.files}
+        study = study_of(*next(iter(found.items())))
+        written = write_page(out, {p.stem: r for p, r in found.items()}, title=args.title, study=study)
     say(f"written: {written}")
     return OK

@@ -3,7 +3,7 @@
 Operations: `document {}`, `set {name, value}` and `undo {}` give a document, `add {table, args}` gives `{curve, more,
 quantities, sliders}`, `toml {}` and `page {}` a text, `cancel {}` nothing. There is no other; none takes a path.
 
-Events: `ready`, `failed`, `ended`; `state`; `progress`; `curve`, `partial` while it grows; `spectra`, the eigenvalues
+Events: `ready`, `failed`, `ended`; `state`; `progress`; `curve`, with `partial` while it grows; `spectra`, eigenvalues
 of a curve that was told before.
 """
 

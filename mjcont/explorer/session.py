@@ -159,7 +159,7 @@ class Session:
             raise ParameterError(f"the value of {name} must be a number, got {value!r}")
         low, high = check_bounds(self.mechanism, name, None)
         if not low <= value <= high:
-            raise BoundsError(f"{name} = {value:g} lies outside its range {low:g} .. {high:g}")
+            raise BoundsError(f"{name} = {value} lies outside its range {low:g} .. {high:g}")
         self.stop.clear()
         before, click = self.now, f"{name} = {value:g}"
         tables = {**before.tables, "parameters": {**before.tables.get("parameters", {}), name: float(value)}}

@@ -77,6 +77,16 @@ def test_export_writes_a_page_or_a_table_as_the_ending_says(stored, tmp_path, ca
     assert (tmp_path / "table.csv").read_text(encoding="utf-8").startswith("F [N],")
 
 
+def test_an_exported_page_hands_out_a_study_that_finds_the_same_folds(stored, tmp_path, overcentre_branch):
+    main(["export", str(stored), "-o", str(tmp_path / "page.html")])
+    document = json.loads(inner((tmp_path / "page.html").read_text(encoding="utf-8"), 'id="document">'))
+    study = stored.parent / "study.toml"
+    study.write_text(document["study"], encoding="utf-8")
+    (again,) = mc.run_study(mc.load_study(study), tmp_path / "out")
+    for point in overcentre_branch(k_j=1e3).of_kind("LP"):
+        assert again.point(point.label)["F"] == pytest.approx(point["F"], rel=1e-10)
+
+
 def test_export_refuses_other_endings_and_lists_those_it_writes(stored, tmp_path, capsys):
     assert main(["export", str(stored), "-o", str(tmp_path / "page.xlsx")]) == 2
     assert "cannot export to 'page.xlsx': the ending must be one of .csv, .html" in capsys.readouterr().err
