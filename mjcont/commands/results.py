@@ -46,7 +46,7 @@ def register(command: Command) -> None:
     p.add_argument("-o", "--out", type=place, metavar="FILE",
                    help="its ending decides: .csv, or .html for the mechanism beside its diagram (default: FILE.csv)")
     p.add_argument("--title", metavar="TEXT", default="", help="of a page (default: the model's name)")
-    p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
+    p.add_argument("--radians", dest="degrees", action="store_false", help="of a table: angles in radians")
 
 
 def plot(args: argparse.Namespace) -> int:

@@ -31,6 +31,11 @@ def test_the_policy_states_the_hash_of_the_script_that_is_there():
     assert "unsafe" not in policy() and "default-src 'none'" in policy()
 
 
+def test_a_page_carries_the_licences_of_the_code_in_it():
+    notice = inner(page({"title": "x"}), 'id="licences">')
+    assert "three.js authors" in notice and "Mike Bostock" in notice
+
+
 def test_a_page_connects_to_nobody_unless_it_is_told_to_whom():
     assert "connect-src" not in policy()
     assert "connect-src ws://127.0.0.1:4000" in policy(["ws://127.0.0.1:4000"])
@@ -39,7 +44,7 @@ def test_a_page_connects_to_nobody_unless_it_is_told_to_whom():
 def test_no_text_of_a_model_ends_the_data():
     title = "</script><script>alert(1)</script><!--"
     text = page({"title": title})
-    assert text.count("<script") == 2 and "<!--" not in text.replace("<!DOCTYPE", "")
+    assert text.count("<script") == 3 and "<!--" not in text.replace("<!DOCTYPE", "")
     assert json.loads(inner(text, 'id="document">'))["title"] == title
 
 
