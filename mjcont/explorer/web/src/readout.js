@@ -105,7 +105,7 @@ export class Readout {
       const head = h("th", { scope: "row" }),
         slider = this.store.document.sliders.find((x) => x.name === name);
       nameInto(head, slider?.shown ?? quantities[name], name);
-      return h("tr", {}, head, h("td", {}, shown(value, slider?.shown ?? quantities[name])));
+      return h("tr", {}, head, h("td", {}, value === null ? "–" : shown(value, slider?.shown ?? quantities[name])));
     });
     this.held.replaceChildren(
       h("summary", {}, `Held: ${held.length} parameters`),
