@@ -46,7 +46,7 @@ def register(command: Command) -> None:
     p.add_argument("-o", "--out", type=place, metavar="FILE",
                    help="its ending decides: .csv, or .html for the mechanism beside its diagram (default: FILE.csv)")
     p.add_argument("--title", metavar="TEXT", default="", help="of a page (default: the model's name)")
-    p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
+    p.add_argument("--radians", dest="degrees", action="store_false", help="of a table: angles in radians")
 
 
 def plot(args: argparse.Namespace) -> int:
@@ -97,8 +97,11 @@ def export(args: argparse.Namespace) -> int:
             raise MjcontError(f"a table is of one result, got {len(args.files)}; a page (-o page.html) takes several")
         written = load(args.files[0]).to_csv(out, degrees=args.degrees)
     else:
+        from mjcont.explorer.opening import study_of
         from mjcont.explorer.page import write_page
 
-        written = write_page(out, {Path(f).stem: load(f) for f in args.files}, title=args.title)
+        found = {Path(f): load(f) for f in args.files}
+        study = study_of(*next(iter(found.items())))
+        written = write_page(out, {p.stem: r for p, r in found.items()}, title=args.title, study=study)
     say(f"written: {written}")
     return OK

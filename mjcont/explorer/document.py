@@ -31,6 +31,8 @@ from mjcont.results.model import Model, provenance
 from mjcont.results.units import displayed, sized
 
 FORMAT, VERSION = "mjcont explorer", 1
+# of a name as it is shown
+_LONGEST = 60
 
 
 def document_of(
@@ -146,7 +148,9 @@ def quantity(name: str, unit: str, role: str, largest: float) -> dict[str, Any]:
     shown, factor = displayed(unit)
     shown, larger = sized(shown, largest) if shown == unit else (shown, 1.0)
     tidy = shown.replace("*", " ") if shown != "1" else ""
-    return {"label": [list(part) for part in symbol(name)], "unit": "°" if tidy == "deg" else tidy,
+    half = (_LONGEST - 1) // 2
+    called = name if len(name) <= _LONGEST else f"{name[:half]}…{name[-half:]}"
+    return {"label": [list(part) for part in symbol(called)], "unit": "°" if tidy == "deg" else tidy,
             "scale": factor * larger, "role": role, "si": unit}
 
 

@@ -17,6 +17,7 @@ from mjcont.results.formats import load
 from mjcont.results.orbits import CycleBranch
 from mjcont.studies.first import first_look
 from mjcont.studies.plans import check_study, located, parse
+from mjcont.studies.schema import toml_text
 
 EQUILIBRIA = "equilibria"
 
@@ -83,6 +84,17 @@ def _of_result(path: Path) -> Opened:
     if not isinstance(result, Branch) or isinstance(result, CycleBranch) or result.kind != "equilibria":
         return Opened(tables, {"result": result}, mechanism, computes=False)
     return Opened({**tables, **_again(result, mechanism)}, {EQUILIBRIA: result}, mechanism, computes=False)
+
+
+def study_of(path: Path, result: Any) -> str:
+    """Return the text of a study that computes a stored branch of equilibria again; empty for other results.
+
+    Its model is the one in the file, beside which it is to lie.
+    """
+    mechanism = getattr(result, "problem", None)
+    if not isinstance(mechanism, Mechanism) or not isinstance(result, Branch) or result.kind != "equilibria":
+        return ""
+    return toml_text({"model": path.name, **_again(result, mechanism)})
 
 
 def _again(branch: Branch, mechanism: Mechanism) -> dict[str, Any]:

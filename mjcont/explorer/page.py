@@ -21,6 +21,7 @@ from mjcont.explorer.naming import named
 from mjcont.outside.escapes import for_page
 from mjcont.outside.saving import checked_path, write_file
 
+_FOLDER = resources.files("mjcont.explorer") / "web" / "dist"
 _ICON = "data:,"
 _HEAD = """<!DOCTYPE html>
 <html lang="en">
@@ -38,6 +39,7 @@ _HEAD = """<!DOCTYPE html>
 <div id="explorer"><noscript>A script draws this page, and scripts are switched off.</noscript></div>
 <script type="application/json" id="document">{document}</script>
 <script type="module">{script}</script>
+<script type="text/plain" id="licences">{licences}</script>
 </body>
 </html>
 """
@@ -46,8 +48,7 @@ _HEAD = """<!DOCTYPE html>
 @cache
 def bundle() -> tuple[str, str]:
     """Return the script and the style sheet of the page, as they were built."""
-    folder = resources.files("mjcont.explorer") / "web" / "dist"
-    script, style = ((folder / name).read_text(encoding="utf-8") for name in ("explorer.js", "explorer.css"))
+    script, style = ((_FOLDER / name).read_text(encoding="utf-8") for name in ("explorer.js", "explorer.css"))
     return script, style
 
 
@@ -66,10 +67,12 @@ def _hash(text: str) -> str:
 def page(document: Mapping[str, Any] | None, connect: Sequence[str] = ()) -> str:
     """Return a document as a page; without one, a page that asks its server for it, at one of `connect`."""
     script, style = bundle()
+    licences = (_FOLDER / "LICENSES.txt").read_text(encoding="utf-8").replace("<", "&lt;")
     data = json.dumps(document, allow_nan=False, separators=(",", ":"), ensure_ascii=False)
     title = f"{document['title']} - mjcont" if document else "mjcont"
     return _HEAD.format(
         policy=for_page(policy(connect)), icon=_ICON, title=for_page(title), style=style, script=script,
+        licences=licences,
         document=data.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029"),
     )
 

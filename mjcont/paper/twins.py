@@ -28,8 +28,13 @@ def write_twins(out: Path, stem: str, *results: Any) -> list[Path]:
     written = []
     for k, (name, each) in enumerate(models.items()):
         file = f"{stem}.{_UNSAFE.sub('_', name)}.html" if k else f"{stem}.html"
-        written.append(to_html(out / file, *each, title=f"{stem}: {name}"))
+        written.append(to_html(out / file, *each, title=f"{_label(stem)}: {name}"))
     return written
+
+
+def _label(stem: str) -> str:
+    """Return a figure's name to be read."""
+    return f"Figure {int(stem[3:])}" if stem[3:].isdecimal() else stem.replace("_", " ").capitalize()
 
 
 def twins(out: Path, stem: str) -> tuple[str, ...]:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from problems.browsers import NO_GRAPHICS
 
+import mjcont as mc
 from mjcont.explorer.document import document_of
 from mjcont.explorer.page import page
 
@@ -147,6 +148,19 @@ def test_markup_in_a_name_stays_text(opened, results, tmp_path):
     tab = opened(place)
     assert tab.page.inner_text(".model") == name
     assert (tab("return window.ran ?? null;"), tab.console) == (None, [])
+
+
+def test_names_that_javascript_has_uses_for_are_names_like_others(opened, tmp_path):
+    field = mc.VectorField(lambda u, p: [p["constructor"] - u[0] ** 3 + u[0], p["toString"] - u[1]], [1.0, 0.0],
+                           {"constructor": 0.0, "toString": 2.0}, names=["__proto__", "hasOwnProperty"], name="valueOf")
+    branch = mc.continue_equilibria(field, "constructor", bounds=(-1, 1))
+    place = mc.to_html(tmp_path / "names.html", branch)
+    tab = opened(place)
+    assert tab.page.locator(".side > .values th[scope=row]").all_inner_texts() == list(branch.columns)
+    tab.page.keyboard.press("Home")
+    tab.page.keyboard.press("n")
+    assert tab.page.inner_text(".selection span") == "LP1, fold"
+    assert tab.console == []
 
 
 def test_a_load_path_plays_through_its_jumps(opened, results_page):

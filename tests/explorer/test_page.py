@@ -31,6 +31,11 @@ def test_the_policy_states_the_hash_of_the_script_that_is_there():
     assert "unsafe" not in policy() and "default-src 'none'" in policy()
 
 
+def test_a_page_carries_the_licences_of_the_code_in_it():
+    notice = inner(page({"title": "x"}), 'id="licences">')
+    assert "three.js authors" in notice and "Mike Bostock" in notice
+
+
 def test_a_page_connects_to_nobody_unless_it_is_told_to_whom():
     assert "connect-src" not in policy()
     assert "connect-src ws://127.0.0.1:4000" in policy(["ws://127.0.0.1:4000"])
@@ -39,7 +44,7 @@ def test_a_page_connects_to_nobody_unless_it_is_told_to_whom():
 def test_no_text_of_a_model_ends_the_data():
     title = "</script><script>alert(1)</script><!--"
     text = page({"title": title})
-    assert text.count("<script") == 2 and "<!--" not in text.replace("<!DOCTYPE", "")
+    assert text.count("<script") == 3 and "<!--" not in text.replace("<!DOCTYPE", "")
     assert json.loads(inner(text, 'id="document">'))["title"] == title
 
 
@@ -75,6 +80,16 @@ def test_export_writes_a_page_or_a_table_as_the_ending_says(stored, tmp_path, ca
     assert main(["export", str(stored), "-o", str(tmp_path / "table.csv")]) == 0
     assert "<title>My gear - mjcont</title>" in (tmp_path / "page.html").read_text(encoding="utf-8")
     assert (tmp_path / "table.csv").read_text(encoding="utf-8").startswith("F [N],")
+
+
+def test_an_exported_page_hands_out_a_study_that_finds_the_same_folds(stored, tmp_path, overcentre_branch):
+    main(["export", str(stored), "-o", str(tmp_path / "page.html")])
+    document = json.loads(inner((tmp_path / "page.html").read_text(encoding="utf-8"), 'id="document">'))
+    study = stored.parent / "study.toml"
+    study.write_text(document["study"], encoding="utf-8")
+    (again,) = mc.run_study(mc.load_study(study), tmp_path / "out")
+    for point in overcentre_branch(k_j=1e3).of_kind("LP"):
+        assert again.point(point.label)["F"] == pytest.approx(point["F"], rel=1e-10)
 
 
 def test_export_refuses_other_endings_and_lists_those_it_writes(stored, tmp_path, capsys):

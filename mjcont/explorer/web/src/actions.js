@@ -16,7 +16,7 @@ const WAYS = [
 export function others(document, curve) {
   return document.sliders
     .map((p) => p.name)
-    .filter((n) => !(n in (curve.free ?? {})))
+    .filter((n) => !(n in curve.free))
     .map((n) => [n, n]);
 }
 

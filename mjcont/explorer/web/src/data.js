@@ -25,15 +25,22 @@ export function unpack(packed) {
   return array;
 }
 
+/** Return a mapping of names that has nothing but them: a model may call something "constructor". */
+export function byName(object) {
+  return Object.assign(Object.create(null), object);
+}
+
 function unpackEach(columns) {
-  return Object.fromEntries(Object.entries(columns ?? {}).map(([name, column]) => [name, unpack(column)]));
+  const found = byName(columns);
+  for (const name of Object.keys(found)) found[name] = unpack(found[name]);
+  return found;
 }
 
 /** Return a curve with its arrays decoded; `rows` is their length. */
 export function curveOf(raw) {
   const columns = unpackEach(raw.columns);
   const first = Object.values(columns)[0];
-  const curve = { ...raw, columns, rows: first ? first.length : 0 };
+  const curve = { ...raw, columns, free: byName(raw.free), fixed: byName(raw.fixed), rows: first ? first.length : 0 };
   for (const key of ["poses", "shapes", "tendons", "eigenvalues", "stability", "unstable", "pieces", "own"])
     curve[key] = unpack(raw[key]);
   if (raw.orbit) {

@@ -6,6 +6,7 @@ import { Drag } from "./drag.js";
 import { Plot } from "./plot.js";
 import { plainName } from "./words.js";
 
+const LABELLED = 4;
 const KINDS = ["loadpath", "branch", "orbits"];
 
 /** Return the values of a column as shown. */
@@ -38,15 +39,17 @@ function turning(ys, quantity) {
   return quantity?.si === "rad" ? (i) => i > 0 && Math.abs(ys[i] - ys[i - 1]) > Math.PI : null;
 }
 
+/** Return the special points of lines; where curves are many, labels are those of the selected one. */
 export function pointsOf(lines, selected) {
   const found = [];
+  const many = new Set(lines.map((l) => l.curve)).size > LABELLED;
   for (const l of lines)
     for (const p of l.curve.specials) {
       if (p.kind === "EP") continue;
       found.push({
         x: l.xs[p.row],
         y: l.ys[p.row],
-        label: l.key.endsWith("/0") ? p.label : "",
+        label: l.key.endsWith("/0") && (!many || l.curve === selected) ? p.label : "",
         kind: p.kind,
         cls: l.curve === selected ? "" : "faint",
       });

@@ -29,34 +29,36 @@ export class Grid {
     const every = this.store.curvesOf("map", "barriers");
     this.panel.show(every.length > 0);
     if (!every.length) return;
-    const { curve, quantities } = this.store,
-      now = every.includes(curve) ? curve : every.at(-1);
+    const { curve, quantities } = this.store;
+    const now = every.includes(curve) ? curve : every.at(-1);
     const flat = now.kind === "map" && Object.keys(now.grid).length > 1;
+    this.panel.title(now.kind === "map" ? this.titled(now, flat) : "Energy barrier");
     const [x, y] = flat ? Object.keys(now.grid) : now.kind === "map" ? [Object.keys(now.grid)[0], now.shown] : now.axes;
-    this.panel.title(
-      now.kind === "map" ? `${now.point}: ${plainName(quantities[now.shown], now.shown)}` : "Energy barrier",
-    );
-    this.shown = now;
-    this.lines = flat
-      ? [
-          {
-            xs: scaled(columnOf(now, x), quantities[x]),
-            ys: scaled(columnOf(now, y), quantities[y]),
-            runs: [],
-            curve: now,
-            key: now.id,
-          },
-        ]
-      : linesOf(now, x, y, quantities, "plain");
+    this.lines = flat ? [this.nodes(now, x, y)] : linesOf(now, x, y, quantities, "plain");
     if (now.kind === "barriers") this.lines.forEach((l) => (l.runs = piecesOf(now.pieces)));
     this.plot.draw({
-      x: { quantity: quantities[x], name: x },
-      y: { quantity: quantities[y], name: y },
+      x: { quantity: quantities[x], name: x, extent: flat ? cellsOf(this.lines[0].xs) : null },
+      y: { quantity: quantities[y], name: y, extent: flat ? cellsOf(this.lines[0].ys) : null },
       lines: this.lines,
       points: [],
       over: flat ? (plot, layer) => this.cells(plot, layer, now) : null,
     });
     this.mark();
+  }
+
+  /** Return what a map shows, and of which values light and dark are. */
+  titled(now, flat) {
+    const quantity = this.store.quantities[now.shown],
+      name = `${now.point}: ${plainName(quantity, now.shown)}`;
+    const ends = extentOf([columnOf(now, now.shown)]);
+    return flat && ends ? `${name}, ${shown(ends[0], quantity, 4)} (light) to ${shown(ends[1], quantity, 4)}` : name;
+  }
+
+  /** Return the nodes of a map over two parameters as a line that is not drawn. */
+  nodes(now, x, y) {
+    const { quantities } = this.store;
+    const [xs, ys] = [x, y].map((n) => scaled(columnOf(now, n), quantities[n]));
+    return { xs, ys, runs: [], curve: now, key: now.id };
   }
 
   cells(plot, layer, now) {
@@ -88,6 +90,13 @@ export class Grid {
       l = this.lines.find((line) => line.curve === curve);
     this.plot.place(l ? [l.xs[row], l.ys[row]] : null);
   }
+}
+
+/** Return an extent that holds the cells about values, from edge to edge. */
+function cellsOf(values) {
+  const places = [...new Set(values)].sort((a, b) => a - b);
+  const half = places.length > 1 ? 0.5 * Math.min(...places.slice(1).map((p, i) => p - places[i])) : 0.5;
+  return [places[0] - half, places.at(-1) + half];
 }
 
 function cellSize(scale, values) {

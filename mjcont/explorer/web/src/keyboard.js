@@ -3,10 +3,11 @@
 const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 25, PageDown: -25 };
 const OWN = "input, select, textarea, summary, [contenteditable]";
 
-/** Listen to keys on `root`, unless an element has a use for them itself. */
+/** Listen to keys of a page, or of a notebook's cell alone, unless an element has a use for them itself. */
 export function listen(root, store, player) {
   root.tabIndex = -1;
-  root.ownerDocument.addEventListener("keydown", (event) => {
+  const whole = root.id === "explorer";
+  (whole ? root.ownerDocument : root).addEventListener("keydown", (event) => {
     if (!root.isConnected || event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.(OWN)) return;
     if (event.target.closest?.("button") && (event.key === " " || event.key === "Enter")) return;
     const { curve, row } = store;
@@ -19,6 +20,7 @@ export function listen(root, store, player) {
     else return;
     if (event.key !== " ") player.stop();
     event.preventDefault();
+    if (!whole) event.stopPropagation();
   });
 }
 

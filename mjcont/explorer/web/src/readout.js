@@ -1,8 +1,10 @@
 // The side: what the row is, its values, the special points, the parameters that are held, notes.
 
 import { MARGINAL, STABILITY } from "./data.js";
-import { h } from "./dom.js";
+import { h, select } from "./dom.js";
 import { nameInto, shown } from "./words.js";
+
+const MOST_BUTTONS = 6;
 
 export class Readout {
   constructor(host, store) {
@@ -44,22 +46,9 @@ export class Readout {
 
   begin() {
     const { curve, curves, quantities } = this.store;
-    this.curves.replaceChildren(
-      ...(curves.filter((c) => c.rows).length > 1
-        ? curves
-            .filter((c) => c.rows)
-            .map((c) =>
-              h(
-                "button",
-                {
-                  class: `curve-chip ${c.kind}`,
-                  "aria-pressed": String(c === curve),
-                  onclick: () => this.store.select(c, c === curve ? this.store.row : (c.start ?? 0)),
-                },
-                c.name,
-              ),
-            )
-        : []),
+    this.offerCurves(
+      curves.filter((c) => c.rows),
+      curve,
     );
     if (!curve) return;
     this.names = Object.keys(curve.columns).filter((n) => n !== "time" || curve.kind === "history");
@@ -92,6 +81,23 @@ export class Readout {
     this.follow();
   }
 
+  /** Offer the curves: a button each, or a list where they are many. */
+  offerCurves(curves, now) {
+    const go = (c) => this.store.select(c, c === now ? this.store.row : (c.start ?? 0));
+    const button = (c) =>
+      h("button", { class: `curve-chip ${c.kind}`, "aria-pressed": String(c === now), onclick: () => go(c) }, c.name);
+    const list = () =>
+      select(
+        "Curve",
+        curves.map((c) => [c.id, c.name]),
+        now?.id,
+        (id) => go(curves.find((c) => c.id === id)),
+      );
+    this.curves.replaceChildren(
+      ...(curves.length < 2 ? [] : curves.length > MOST_BUTTONS ? [list()] : curves.map(button)),
+    );
+  }
+
   fillHeld(curve, quantities) {
     const held = Object.entries(curve.fixed ?? {}).filter(([n]) => !curve.columns[n]);
     this.held.hidden = !held.length;
@@ -99,7 +105,7 @@ export class Readout {
       const head = h("th", { scope: "row" }),
         slider = this.store.document.sliders.find((x) => x.name === name);
       nameInto(head, slider?.shown ?? quantities[name], name);
-      return h("tr", {}, head, h("td", {}, shown(value, slider?.shown ?? quantities[name])));
+      return h("tr", {}, head, h("td", {}, value === null ? "–" : shown(value, slider?.shown ?? quantities[name])));
     });
     this.held.replaceChildren(
       h("summary", {}, `Held: ${held.length} parameters`),

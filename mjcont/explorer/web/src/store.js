@@ -1,6 +1,6 @@
 // What is selected and shown, and who wants to know. The curves are the document's; the rest is the browser's alone.
 
-import { curveOf, unpack } from "./data.js";
+import { byName, curveOf, unpack } from "./data.js";
 
 export class Store {
   constructor(document) {
@@ -16,7 +16,7 @@ export class Store {
   replace(document) {
     const before = this.curve?.id;
     this.document = document;
-    this.quantities = document.quantities;
+    this.quantities = byName(document.quantities);
     this.curves = document.curves.map(curveOf);
     const start = this.curves.find((c) => c.id === before) ?? this.curves.find((c) => c.rows) ?? null;
     this.curve = start;
@@ -27,7 +27,7 @@ export class Store {
   /** Add a curve, or put it in the place of the one with its id; `quantities` are those it brings. */
   put(raw, quantities = {}) {
     const curve = curveOf(raw), k = this.curves.findIndex((c) => c.id === curve.id);
-    this.quantities = this.document.quantities = { ...quantities, ...this.quantities };
+    this.quantities = this.document.quantities = byName({ ...quantities, ...this.quantities });
     const raws = this.document.curves;
     if (k < 0) {
       this.curves.push(curve);
