@@ -110,7 +110,7 @@ function ofRow(curve, row, special, choices) {
   const unstable = curve.stability?.[row] === UNSTABLE,
     found = [];
   if (free.length) {
-    const why = unstable && !special ? "Nothing rests at an unstable row." : "";
+    const why = unstable && special?.kind !== "LP" ? "Nothing rests at an unstable row." : "";
     found.push({
       id: "path",
       label: "Let the load run from here",
