@@ -8,6 +8,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.stamp
 UNFINISHED := $(VENV)/.unfinished
 OUT := out/reproduce
+WEB := mjcont/explorer/web
 
 # Tests start many processes: compiled once, the package starts faster in each.
 unexport PYTHONDONTWRITEBYTECODE
@@ -24,7 +25,7 @@ FRESH := $(shell $(BIN)/python -c 'import pip' 2>/dev/null && $(STAMP_TEXT) | cm
 
 .DEFAULT_GOAL := help
 .PHONY: help env reproduce reproduce-fast test test-slow test-long test-fuzz test-shaken test-shaken-fast test-kernels \
-	test-faults thirdparty test-thirdparty bench clean FORCE
+	test-faults thirdparty test-thirdparty test-explorer explorer-bundle explorer-check bench clean FORCE
 
 help: ## list these targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 # \2/p' $(MAKEFILE_LIST) | awk -F' # ' '{ printf "%-23s %s\n", $$1, $$2 }'
@@ -43,8 +44,8 @@ test: env ## lint, rooms, types and tests
 	$(BIN)/mypy
 	$(BIN)/pytest -q -n auto --dist loadfile --no-loadscope-reorder
 
-test-slow: env ## the tests that take seconds
-	$(BIN)/pytest -q -n auto --dist loadfile --no-loadscope-reorder -m "slow and not long and not shaken and not thirdparty"
+test-slow: env ## tests of half a second or more
+	$(BIN)/pytest -q -n auto --dist loadfile --no-loadscope-reorder -m "slow and not long and not shaken and not thirdparty and not browser"
 
 test-long: env ## the tests that take minutes
 	$(BIN)/pytest -q -n auto -m "long and not thirdparty"
@@ -69,6 +70,15 @@ thirdparty: env ## download models from other packages, in .thirdparty
 
 test-thirdparty: thirdparty ## the tests on models that none of us wrote
 	$(BIN)/pytest -q -n auto -m thirdparty
+
+explorer-bundle: ## build the explorer's script and style sheet from its sources (needs Node 20 and npm; users do not)
+	cd $(WEB) && npm ci --silent && npm run --silent build
+
+test-explorer: env ## the explorer in a headless browser (Debian's package chromium), and its processes
+	$(BIN)/pytest -q -m browser
+
+explorer-check: ## whether the script and the style sheet in the package are what their sources build to
+	cd $(WEB) && npm ci --silent && npm run --silent check
 
 bench: env ## measure speed beside a floor and peers, in out/benchmarks.json (half an hour; QUICK=1: minutes)
 	$(BIN)/python -m benchmarks -o out/benchmarks.json $(if $(QUICK),--quick)

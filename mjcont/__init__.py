@@ -41,6 +41,8 @@ if TYPE_CHECKING:
     from mjcont.drawing.orbits import plot_orbits
     from mjcont.drawing.plotting import plot
     from mjcont.drawing.poses import add_poses, draw, draw_poses
+    from mjcont.explorer.notebook import explore
+    from mjcont.explorer.page import to_html
     from mjcont.influence.critical import follow_point
     from mjcont.influence.extremes import worst_case
     from mjcont.influence.maps import special_map
@@ -93,6 +95,8 @@ _HOMES = {
     "mjcont.drawing.orbits": ("plot_orbits",),
     "mjcont.drawing.plotting": ("plot",),
     "mjcont.drawing.poses": ("add_poses", "draw", "draw_poses"),
+    "mjcont.explorer.notebook": ("explore",),
+    "mjcont.explorer.page": ("to_html",),
     "mjcont.influence.critical": ("follow_point",),
     "mjcont.influence.extremes": ("worst_case",),
     "mjcont.influence.maps": ("special_map",),
@@ -195,6 +199,7 @@ __all__ = [
     "draw",
     "draw_poses",
     "energy_barrier",
+    "explore",
     "extend",
     "find_cycle",
     "find_equilibria",
@@ -216,6 +221,7 @@ __all__ = [
     "stiffness_study",
     "sweep",
     "switch_branches",
+    "to_html",
     "transfer",
     "verify_stability",
     "worst_case",

@@ -13,23 +13,25 @@ from _overcentre import BOUNDS, MODEL
 import mjcont as mc
 from mjcont.drawing.plotting import new_figure, save_figure
 from mjcont.paper.reproduce import Finding, run_script
+from mjcont.paper.twins import write_twins
 
 
 def main(out: Path) -> list[Finding]:
     """Draw the figure into `out` and return its findings."""
     figure, axes = new_figure(2, 3, (7.8, 4.4))
-    findings = [_drawn(name, row) for name, row in zip(("overcentre", MODEL), axes, strict=True)]
+    models = {name: mc.Mechanism.from_xml(name) for name in ("overcentre", MODEL)}
+    branches = [mc.continue_equilibria(m, "F", bounds=BOUNDS, start={"F": BOUNDS[1]}) for m in models.values()]
+    findings = [_drawn(name, branch, row) for name, branch, row in zip(models, branches, axes, strict=True)]
     save_figure(figure, out / "fig01.png")
+    write_twins(out, "fig01", *branches)
     return findings
 
 
-def _drawn(name: str, axes: np.ndarray) -> Finding:
-    mechanism = mc.Mechanism.from_xml(name)
-    branch = mc.continue_equilibria(mechanism, "F", bounds=BOUNDS, start={"F": BOUNDS[1]})
+def _drawn(name: str, branch: mc.Branch, axes: np.ndarray) -> Finding:
     below, above = branch.of_kind("LP")
     (overcentre,) = branch.at(theta_1=0.0)
     poses = {"above overcentre, at its fold": above, "overcentre": overcentre, "below overcentre, at its fold": below}
-    mc.draw_poses(mechanism, poses, axes=axes)
+    mc.draw_poses(branch.problem, poses, axes=axes)
     angles = ", ".join(f"{np.degrees(p['theta_1']):+.2f} deg" for p in poses.values())
     return Finding(
         "Lowering F takes the mechanism from above to below overcentre; at overcentre both links are horizontal.",

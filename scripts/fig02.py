@@ -18,6 +18,7 @@ from mjcont.drawing.notes import place_labels
 from mjcont.drawing.plotting import COLORS, new_figure, plot, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script
+from mjcont.paper.twins import write_twins
 
 DAMPING = (0.01, 10.0)
 CYCLE = 360.0  # s
@@ -30,6 +31,7 @@ def main(out: Path) -> list[Finding]:
     branches = [equilibria(mechanism, c_sp=c) for c in DAMPING]
     light, heavy = histories = [cycle(b) for b in branches]
     _draw(branches, histories, out)
+    write_twins(out, "fig02", *branches, *histories)
     return [
         _differ(branches, light, heavy),
         _loop(branches[0], light, heavy),

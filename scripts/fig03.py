@@ -15,6 +15,7 @@ import mjcont as mc
 from mjcont.drawing.axes import readable
 from mjcont.drawing.plotting import new_figure, pieces, plot, save_figure, set_panel_title
 from mjcont.paper.reproduce import Finding, run_script
+from mjcont.paper.twins import write_twins
 
 DAMPING = (0.01, 10.0)
 
@@ -30,6 +31,7 @@ def main(out: Path) -> list[Finding]:
         ax.set(xlim=BOUNDS, ylim=(-90, 90), yticks=range(-90, 91, 30))
         ax.label_outer()
     save_figure(figure, out / "fig03.png")
+    write_twins(out, "fig03", *branches)
     return [_structure(branches), _same(*branches), _snaps(branches[0])]
 
 

@@ -17,6 +17,7 @@ import mjcont as mc
 from mjcont.drawing.axes import axis_label, readable
 from mjcont.drawing.plotting import GREY, new_figure, pieces, plot, save_figure, set_panel_title
 from mjcont.paper.reproduce import Finding, run_script, whole
+from mjcont.paper.twins import write_twins
 
 STIFFNESS = (10.0, 200.0, 1000.0)
 SPAN = (8.0, 1e6)  # k_j in N/m
@@ -36,6 +37,7 @@ def main(out: Path) -> list[Finding]:
     for study in studies.values():
         whole(study.locus)
     _draw(branches, studies, out)
+    write_twins(out, "fig04", *branches, *(studies[label, "F"].locus for label in FOLDS))
     return [
         _levels_off(studies, rigid),
         _same_structure(branches),

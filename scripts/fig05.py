@@ -26,6 +26,7 @@ from mjcont.drawing.plotting import (
     split_by_stability,
 )
 from mjcont.paper.reproduce import Finding, run_script
+from mjcont.paper.twins import write_twins
 
 
 def main(out: Path) -> list[Finding]:
@@ -34,6 +35,7 @@ def main(out: Path) -> list[Finding]:
     rigid = Rigid.of(mechanism)
     branches = {k: equilibria(mechanism, k_j=k) for k in (1e2, 1e3, 1e6)}
     _draw(branches[1e2], rigid, out)
+    write_twins(out, "fig05", *branches.values())
     return [
         _same_structure(branches[1e2], rigid),
         _close_folds(branches[1e2], rigid),

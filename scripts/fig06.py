@@ -13,6 +13,7 @@ from _gear import LOCKING, Slice, angle_of, draw_both, load_case
 import mjcont as mc
 from mjcont.drawing.plotting import new_figure, save_figure
 from mjcont.paper.reproduce import Finding, run_script
+from mjcont.paper.twins import write_twins
 
 
 def main(out: Path) -> list[Finding]:
@@ -30,6 +31,7 @@ def main(out: Path) -> list[Finding]:
     poses = {f"FP{k} at {angle_of(p):+.1f} deg": p for k, p in enumerate(near.folds, 1)}
     draw_both(axes[1:], near.gear, {"downlock": "downlock_below", **poses})
     save_figure(figure, out / "fig06.png")
+    write_twins(out, "fig06", *diagram, *near.branches)
     gap = max(abs(p[name]) for p in folds for name in gear.observables if name[:2] in ("x_", "z_"))
     return [
         Finding(

@@ -18,6 +18,7 @@ from mjcont.drawing.axes import axis_label, readable
 from mjcont.drawing.plotting import mark, new_figure, pieces, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script, whole
+from mjcont.paper.twins import write_twins
 
 BOUNDS = (0.0, 60.0)
 DAMPING = (1.0, 1000.0)
@@ -30,6 +31,7 @@ def main(out: Path) -> list[Finding]:
     gear = mc.Mechanism.from_xml("nose_gear_full")
     diagrams = [_branches(gear, c) for c in DAMPING]
     _draw(diagrams, out)
+    write_twins(out, "fig07", *(b for branches in diagrams for b in branches))
     return [_same_curves(*diagrams), _same_stability(*diagrams), _no_hopf(diagrams), _uplocks(diagrams)]
 
 

@@ -22,6 +22,7 @@ from mjcont.drawing.axes import axis_label, readable
 from mjcont.drawing.plotting import draw_curve, mark, new_figure, pieces, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script, whole
+from mjcont.paper.twins import write_twins
 from mjcont.results.points import show
 
 BOUNDS = (-40.0, 60.0)  # F_ret in N
@@ -116,6 +117,7 @@ def main(out: Path) -> list[Finding]:
     curves = softened(folds)
     slices = [Slice.of(curves, k) for k in STIFFNESS]
     _draw(slices, out)
+    write_twins(out, "fig08", *(b for piece in slices for b in piece.branches), *(c.locus for c in curves))
     soft, middle, stiff = slices
     return [_turns(soft.curves), _single(soft.curves), _additional(soft, stiff), _wrong(slices), _same(middle, stiff)]
 

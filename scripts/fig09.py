@@ -14,6 +14,7 @@ from _loci import Case
 import mjcont as mc
 from mjcont.drawing.plotting import new_figure, save_figure
 from mjcont.paper.reproduce import Finding, run_script
+from mjcont.paper.twins import write_twins
 
 SOFT = (1e6, 1e7)  # N/m, of the gear that locks; its own is 1e8
 
@@ -29,6 +30,7 @@ def main(out: Path) -> list[Finding]:
     mc.draw_poses(first.locus.problem, poses, axes=axes[0])
     draw_both(axes[1:], locking.locus.problem, others)
     save_figure(figure, out / "fig09.png")
+    write_twins(out, "fig09", first.locus, locking.locus)
     return [*(_freedom(c.locus.problem) for c in (first, locking)), _sufficient(first), _stiff(locking)]
 
 

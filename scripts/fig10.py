@@ -32,6 +32,7 @@ from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import mark, new_figure, save_figure, set_panel_title
 from mjcont.motion.histories import simulate
 from mjcont.paper.reproduce import Finding, run_script, whole
+from mjcont.paper.twins import write_twins
 
 BOUNDS = (0.0, 1e6)
 KEYFRAMES = ("uplock_above", "uplock_below", "downlock_above", "downlock_below")
@@ -43,6 +44,7 @@ def main(out: Path) -> list[Finding]:
     found = [_equilibria(mc.Mechanism.from_xml(name)) for name in (FIRST, LOCKING)]
     (first, _), (locking, _) = found
     _draw([near for near, _ in found], out)
+    write_twins(out, "fig10", *(b for near, _ in found for b in near.branches))
     return [
         *(_curves(near, count) for near, count in found),
         *(_stability(near) for near, _ in found),

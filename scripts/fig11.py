@@ -30,6 +30,7 @@ from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import new_figure, save_figure, set_panel_title
 from mjcont.motion.histories import simulate
 from mjcont.paper.reproduce import Finding, run_script
+from mjcont.paper.twins import write_twins
 
 
 def main(out: Path) -> list[Finding]:
@@ -41,6 +42,7 @@ def main(out: Path) -> list[Finding]:
         drawn += rows
         found += [_moves(*rows), _same_fold(*rows), _unlocks(*rows), _less_force(*rows)]
     _draw(drawn, out)
+    write_twins(out, "fig11", *(b for row in drawn for piece in row for b in piece.branches))
     return found
 
 

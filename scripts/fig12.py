@@ -25,6 +25,7 @@ from _loci import (
 
 import mjcont as mc
 from mjcont.paper.reproduce import Finding, run_script
+from mjcont.paper.twins import write_twins
 
 _LOCKED = ("stable", "unstable", "stable")
 
@@ -34,6 +35,7 @@ def main(out: Path) -> list[Finding]:
     gear, second = (mc.Mechanism.from_xml(name) for name in (FIRST, LOCKING))
     loci, locking = cases(gear, 1.0), cases(second, 1.0)
     loci_figure(loci, locking, out / "fig12.png")
+    write_twins(out, "fig12", *(case.locus for case in (*loci, *locking)))
     return [
         found_cusps(loci),
         found_cusps(locking),

@@ -15,6 +15,7 @@ from _gear import FIRST, LOAD_FACTORS, LOCKING, NAMES, Slice, add_legend, angle_
 import mjcont as mc
 from mjcont.drawing.plotting import new_figure, save_figure, set_panel_title
 from mjcont.paper.reproduce import Finding, run_script
+from mjcont.paper.twins import write_twins
 
 
 def main(out: Path) -> list[Finding]:
@@ -22,6 +23,7 @@ def main(out: Path) -> list[Finding]:
     first, locking = ([Slice.of(gear, load_case(n)) for n in LOAD_FACTORS]
                       for gear in map(mc.Mechanism.from_xml, (FIRST, LOCKING)))
     _draw(first, locking, out)
+    write_twins(out, "fig13", *(b for piece in (*first, *locking) for b in piece.branches))
     found = [_same_structure(first), _same_structure(locking), _three_folds(first, locking)]
     for slices in (first, locking):
         locus = slices[0].followed("load_factor", LOAD_FACTORS[0], LOAD_FACTORS[-1])

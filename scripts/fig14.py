@@ -14,6 +14,7 @@ from _loci import Case, cases, found_cusps, least_favourable, loci_figure, separ
 
 import mjcont as mc
 from mjcont.paper.reproduce import Finding, run_script
+from mjcont.paper.twins import write_twins
 
 
 def main(out: Path) -> list[Finding]:
@@ -22,6 +23,7 @@ def main(out: Path) -> list[Finding]:
         [cases(mc.Mechanism.from_xml(name), n) for n in (0.5, 1.0)] for name in (FIRST, LOCKING)
     )
     loci_figure(loci, locking, out / "fig14.png")
+    write_twins(out, "fig14", *(case.locus for case in (*loci, *locking)))
     return [
         found_cusps(loci),
         found_cusps(locking),

@@ -21,6 +21,7 @@ import mjcont as mc
 from mjcont.drawing.axes import readable
 from mjcont.drawing.plotting import COLORS, draw_curve, mark, save_figure, set_panel_title
 from mjcont.paper.reproduce import Finding, run_script, whole
+from mjcont.paper.twins import write_twins
 
 REACH = np.radians(30.0)
 
@@ -35,6 +36,7 @@ def main(out: Path) -> list[Finding]:
     figure = loci_figure(loci, locking[2.5], out / "fig15.png", more=1)
     _draw_cusps(figure.axes[3], cusps, found)
     save_figure(figure, out / "fig15.png")
+    write_twins(out, "fig15", *(case.locus for case in (*loci, *locking[2.5])))
     return [
         found_cusps(loci),
         found_cusps(locking[2.5]),

@@ -25,6 +25,7 @@ from mjcont.drawing.axes import axis_label
 from mjcont.drawing.plotting import COLORS, draw_curve, mark, new_figure, pieces, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array
 from mjcont.paper.reproduce import Finding, run_script, whole
+from mjcont.paper.twins import write_twins
 
 STOPPED = "nose_gear_stop"
 HIGH = 8e5  # N
@@ -69,6 +70,7 @@ def main(out: Path) -> list[Finding]:
     """Run the study, draw it and return its findings."""
     study = compute()
     _draw(study, out / "locking.png")
+    write_twins(out, "locking", *study.slices[0].branches, study.locks, study.frees, study.holds)
     return findings(study)
 
 

@@ -19,6 +19,7 @@ import mjcont as mc
 from mjcont.drawing.plotting import COLORS, new_figure, save_figure, set_panel_title
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.paper.reproduce import Finding, run_script
+from mjcont.paper.twins import write_twins
 
 # The equations are those of G. Somieski, Shimmy analysis of a simple aircraft nose landing gear model using different
 # mathematical methods, Aerospace Science and Technology 1 (1997) 545-555, with smooth tyre curves and smoothed dry
@@ -86,6 +87,7 @@ def main(out: Path) -> list[Finding]:
     """Run the study, draw it and return its findings."""
     study = compute()
     _draw(study, out / "shimmy.png")
+    write_twins(out, "shimmy", study.rest, study.cycles, study.hopf)
     return findings(study)
 
 

@@ -23,7 +23,7 @@ ARM = ("ARMV8", "CortexA57", "NeoverseN1", "NeoverseN2", "NeoverseV1", "VORTEX")
 _ROOT = Path(__file__).resolve().parent.parent
 _NAMES = [f"{prefix}openblas_get_corename{suffix}" for prefix in ("scipy_", "") for suffix in ("64_", "")]
 _PROBE = "--probe"
-_EVERY = "not long and not fuzz and not thirdparty and not shaken"
+_EVERY = "not long and not fuzz and not thirdparty and not shaken and not browser"
 _SHARED = ("-n", "auto", "--dist", "loadfile", "--no-loadscope-reorder", "-m", _EVERY)
 
 

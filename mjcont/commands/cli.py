@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from mjcont.commands import first, help, models, reports, results, studies
+from mjcont.commands import explore, first, help, models, reports, results, studies
 from mjcont.commands.common import INTERRUPTED, USER_ERROR
 from mjcont.errors import MjcontError, unknown_name
 from mjcont.outside.interrupts import ended_by, termination_unwinds
@@ -24,6 +24,7 @@ _EXAMPLES = """examples:
   mjcont check my_study.toml                    everything that is wrong with a study, before it runs
   mjcont plot out/equilibria.h5 -x F -y theta_1
   mjcont sensitivities out/equilibria.h5 LP1    how that fold moves with masses, lengths, stiffnesses
+  mjcont explore out/equilibria.h5              the mechanism beside its diagram, in the browser
   mjcont view out/equilibria.h5 --label LP1     that pose in MuJoCo's viewer
   mjcont docs                                   what to read, in this installation
 """
@@ -53,7 +54,7 @@ def parser() -> argparse.ArgumentParser:
         added.set_defaults(command=function)
         return added
 
-    for room in (models, first, studies, results, reports, help):
+    for room in (models, first, studies, explore, results, reports, help):
         room.register(command)
     return top
 

@@ -21,7 +21,6 @@ MODEL_HELP = "an MJCF file, or the name of a model that ships with mjcont, such 
 FRICTION_HELP = "leave friction out of equilibria, or refuse models that have it (default: frictionless)"
 STUDY_HELP = "a study file, or the name of one that ships with mjcont, such as overcentre"
 JSON_HELP = "print JSON instead of words: SI units and radians"
-_RESULT_SUFFIXES = (".h5", ".hdf5")
 
 
 class Command(Protocol):
@@ -35,7 +34,9 @@ class Command(Protocol):
 
 def is_result(name: str) -> bool:
     """Whether a name is that of a result file."""
-    return Path(name).suffix.lower() in _RESULT_SUFFIXES
+    from mjcont.results.files import RESULT_SUFFIXES
+
+    return Path(name).suffix.lower() in RESULT_SUFFIXES
 
 
 @contextmanager

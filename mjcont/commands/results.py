@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import Any
 
 from mjcont.commands import animate
 from mjcont.commands.common import OK, Command, load, load_branch, load_curve, naming, output
 from mjcont.commands.readers import place
+from mjcont.errors import MjcontError
 from mjcont.outside.terminal import say
+
+_EXPORTS = (".csv", ".html")
 
 
 def register(command: Command) -> None:
@@ -37,10 +41,12 @@ def register(command: Command) -> None:
     p.add_argument("-o", "--out", type=place, metavar="FILE", help="draw a tornado chart of the first: png, pdf or svg")
     p.add_argument("--csv", type=place, metavar="FILE.csv", help="write the table, angles in degrees")
 
-    p = command("export", "write a stored branch as CSV", export)
-    p.add_argument("file", metavar="FILE.h5")
-    p.add_argument("-o", "--out", type=place, metavar="FILE.csv", help="default: FILE.csv beside the input")
-    p.add_argument("--radians", dest="degrees", action="store_false", help="angles in radians, not degrees")
+    p = command("export", "write a stored result as CSV, or results as a page that opens in a browser", export)
+    p.add_argument("files", metavar="FILE.h5", nargs="+", help="one for a table; several make one page")
+    p.add_argument("-o", "--out", type=place, metavar="FILE",
+                   help="its ending decides: .csv, or .html for the mechanism beside its diagram (default: FILE.csv)")
+    p.add_argument("--title", metavar="TEXT", default="", help="of a page (default: the model's name)")
+    p.add_argument("--radians", dest="degrees", action="store_false", help="of a table: angles in radians")
 
 
 def plot(args: argparse.Namespace) -> int:
@@ -82,8 +88,20 @@ def influence(args: argparse.Namespace) -> int:
 
 
 def export(args: argparse.Namespace) -> int:
-    """Write a result as CSV."""
-    out = output(args.out, ".csv", [args.file])
-    result = load(args.file)
-    say(f"written: {result.to_csv(out, degrees=args.degrees)}")
+    """Write a result as CSV, or results as a page: the ending of the file decides."""
+    out = output(args.out, _EXPORTS[0], args.files)
+    if out.suffix.lower() not in _EXPORTS:
+        raise MjcontError(f"cannot export to '{out.name}': the ending must be one of {', '.join(_EXPORTS)}")
+    if out.suffix.lower() == ".csv":
+        if len(args.files) > 1:
+            raise MjcontError(f"a table is of one result, got {len(args.files)}; a page (-o page.html) takes several")
+        written = load(args.files[0]).to_csv(out, degrees=args.degrees)
+    else:
+        from mjcont.explorer.opening import study_of
+        from mjcont.explorer.page import write_page
+
+        found = {Path(f): load(f) for f in args.files}
+        study = study_of(*next(iter(found.items())))
+        written = write_page(out, {p.stem: r for p, r in found.items()}, title=args.title, study=study)
+    say(f"written: {written}")
     return OK

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Any
 from mjcont.commands.progress import Gauge
 from mjcont.curves.collect import Found
 from mjcont.results.points import show
-from mjcont.studies.reporter import Range, Reporter
+from mjcont.studies.reporter import Range, Reporter, Swept
 
 
 class Told(Reporter):
@@ -30,15 +29,14 @@ class Told(Reporter):
 
     def __init__(self, shown: Gauge, say: Callable[[str], None] | None = None) -> None:
         self._shown, self._say = shown, say or (lambda text: None)
-        self._ranges: Mapping[str, Range] = {}
-        self._reached: dict[str, tuple[float, float]] = {}
+        self._swept = Swept({})
         self._found: Counter[str] = Counter()
         self.results: list[tuple[Any, Sequence[Path]]] = []
         self.plots: list[Path] = []
 
     def started(self, name: str, task: str, place: tuple[int, int], ranges: Mapping[str, Range]) -> None:
         """Print what is going to be computed."""
-        self._ranges, self._reached, self._found = ranges, {}, Counter()
+        self._swept, self._found = Swept(ranges), Counter()
         self._say(f"{name}: {task}")
         number, count = place
         self._shown.begin(f"{name} (result {number} of {count})" if count > 1 else name)
@@ -46,19 +44,11 @@ class Told(Reporter):
     def point(self, count: int, found: Found) -> None:
         """Show the number of points, where the curve is, and what was found on it."""
         self._found[found.kind] += bool(found.kind)
-        words = [f"{count} points"]
-        shares = [self._swept(name, value) for name, value in found.parameters.items() if name in self._ranges]
-        words += [f"{name} = {show(value, self._ranges[name].unit, 4)}"
-                  for name, value in found.parameters.items() if name in self._ranges]
+        words, ranges = [f"{count} points"], self._swept.ranges
+        words += [f"{name} = {show(value, ranges[name].unit, 4)}"
+                  for name, value in found.parameters.items() if name in ranges]
         words += [f"{number} {kind}" for kind, number in self._found.items() if kind and number]
-        self._shown.tell(", ".join(words), max(shares, default=math.nan))
-
-    def _swept(self, name: str, value: float) -> float:
-        """Return which share of a parameter's range a curve has been through: a guess of how far it is."""
-        low, high = self._reached.get(name, (value, value))
-        self._reached[name] = low, high = min(low, value), max(high, value)
-        span = self._ranges[name]
-        return (high - low) / (span.high - span.low)
+        self._shown.tell(", ".join(words), self._swept.share(found.parameters))
 
     def step(self, done: float, total: float) -> None:
         """Show how much of a known amount is done."""

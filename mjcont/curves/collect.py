@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
@@ -34,12 +34,17 @@ from mjcont.results.spectra import Late, Spectra
 class Found:
     """A point as it is found, while its curve is still being followed: no label yet, and no kind unless special.
 
-    Observables are those of special points only.
+    Observables are those of special points only; of others they can be read from the state and the values of all
+    parameters. The state is None where there is none to tell: of starts, and of orbits. `direction` counts the
+    directions followed before.
     """
 
     kind: str
     parameters: Mapping[str, float]
     observables: Mapping[str, float]
+    state: Array | None = None
+    values: Values = field(default_factory=dict)
+    direction: int = 0
 
 
 Progress = Callable[[int, Found], None]
@@ -56,28 +61,29 @@ def make_point(problem: Model, x: Array, values: Values, kind: str = "") -> Poin
     return Point(dict(values), observables, x.copy(), s.eigenvalues, word, count, problem, units(problem))
 
 
-def _found(system: System, item: CurvePoint | Located) -> Found:
+def _found(system: System, item: CurvePoint | Located, direction: int) -> Found:
     values = system.values(item.y if isinstance(item, CurvePoint) else item.point.y)
     free = {n: values[n] for n in system.names}
     if isinstance(item, CurvePoint):
-        return Found("", free, {})
+        return Found("", free, {}, item.x, values, direction)
     problem = model_of(system.problem)
     measured = problem.measure(item.point.x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
-    return Found(item.kind, free, observables)
+    return Found(item.kind, free, observables, item.point.x, values, direction)
 
 
 def reporter(system: System, progress: Progress | None) -> Callable[[Item], None] | None:
     """Return what a trace calls for each item, so that `progress` hears of points and special points."""
     if progress is None:
         return None
-    count = 0
+    count = direction = 0
 
     def report(item: Item) -> None:
-        nonlocal count
+        nonlocal count, direction
+        direction += isinstance(item, End)
         if isinstance(item, CurvePoint | Located):
             count += isinstance(item, CurvePoint)
-            progress(count, _found(system, item))
+            progress(count, _found(system, item, direction))
 
     return report
 

@@ -28,19 +28,29 @@ def readable(name: str) -> str:
 
     What is no plain name, such as the path of a parameter, stays as it is.
     """
-    found = [_WORD.fullmatch(part) for part in name.split(".")]
     plain = for_picture(name)
-    if len(plain) != len(name) or not all(found):
-        return plain
-    return " ".join(_word(f["head"], f["tail"], f["index"] or "") for f in found if f is not None)
+    parts = symbol(name)
+    return plain if len(plain) != len(name) or parts == [(name, "", "")] else " ".join(_word(*p) for p in parts)
 
 
-def _word(head: str, tail: str, index: str) -> str:
-    symbol = _GREEK.get(head, head if len(head) == 1 else "")
-    if not symbol:
-        return f"{head}{tail.replace('_', ' ')}{index}"
-    below = tail[1:].replace("_", r"\,")
-    return f"{symbol}$_{{\\mathrm{{{below}}}}}${index}" if below else f"{symbol}{index}"
+def symbol(name: str) -> list[tuple[str, str, str]]:
+    """Return a name's parts, each with what stands below it and behind: F_ret is ("F", "ret", "").
+
+    What is no plain name is one part.
+    """
+    found = [_WORD.fullmatch(part) for part in name.split(".")]
+    return [_parts(**f.groupdict()) for f in found if f is not None] if all(found) else [(name, "", "")]
+
+
+def _parts(head: str, tail: str, index: str | None) -> tuple[str, str, str]:
+    letter = _GREEK.get(head, head if len(head) == 1 else "")
+    behind = index or ""
+    return (letter, tail[1:].replace("_", " "), behind) if letter else (head + tail.replace("_", " "), "", behind)
+
+
+def _word(letter: str, below: str, behind: str) -> str:
+    spaced = below.replace(" ", r"\,")
+    return f"{letter}$_{{\\mathrm{{{spaced}}}}}${behind}" if below else f"{letter}{behind}"
 
 
 def axis_label(name: str, unit: str, degrees: bool = True) -> str:

@@ -18,10 +18,10 @@ from mjcont.numerics.equations.problem import Array
 
 Color = tuple[float, ...]
 _JOINT, _GEOM = mujoco.mjtJoint, mujoco.mjtGeom
-_GREY = (0.45, 0.47, 0.50, 1.0)
+GREY = (0.45, 0.47, 0.50, 1.0)
 _UNPAINTED = np.array([0.5, 0.5, 0.5, 1.0])
 # MuJoCo's viewer, too, shows the groups below this one; the others hold collision geoms
-_HIDDEN_GROUP = 3
+HIDDEN_GROUP = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,8 +172,8 @@ def _geoms(scene: Scene) -> Iterator[Shape]:
     bodies = scene.names("body")
     for g in range(m.ngeom):
         body, material = int(m.geom_bodyid[g]), int(m.geom_matid[g])
-        color = painted(m.geom_rgba[g], painted(m.mat_rgba[material], _GREY) if material >= 0 else _GREY)
-        if m.geom_group[g] >= _HIDDEN_GROUP or color[3] == 0:
+        color = painted(m.geom_rgba[g], painted(m.mat_rgba[material], GREY) if material >= 0 else GREY)
+        if m.geom_group[g] >= HIDDEN_GROUP or color[3] == 0:
             continue
         found = _projected(scene, g)
         if found is not None:
@@ -236,7 +236,7 @@ def _slab(scene: Scene, centre: Array, normal: Array, half: float) -> tuple[Arra
 def _sticks(scene: Scene) -> Iterable[Shape]:
     """Yield links from a bare body's first hinge to its sites, the next bodies and its centre of gravity."""
     m, d = scene.model, scene.data
-    clothed = {int(b) for b, group in zip(m.geom_bodyid, m.geom_group, strict=True) if group < _HIDDEN_GROUP}
+    clothed = {int(b) for b, group in zip(m.geom_bodyid, m.geom_group, strict=True) if group < HIDDEN_GROUP}
     for body, name in enumerate(scene.names("body")):
         if body in clothed or scene.on_ground(body):
             continue
@@ -245,4 +245,4 @@ def _sticks(scene: Scene) -> Iterable[Shape]:
         for end in [*d.site_xpos[m.site_bodyid == body], *d.xpos[m.body_parentid == body], d.xipos[body]]:
             points = scene.flat(np.array([start, end]))
             if np.linalg.norm(points[1] - points[0]) > 1e-9:
-                yield Shape(name, points, 0.008 * scene.size, _GREY, False, float(end @ scene.toward))
+                yield Shape(name, points, 0.008 * scene.size, GREY, False, float(end @ scene.toward))

@@ -21,7 +21,10 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class FigureResult:
-    """A figure or a study that was drawn, or failed for a reason; `stamp` identifies all that it was made from."""
+    """A figure or a study that was drawn, or failed for a reason; `stamp` identifies all that it was made from.
+
+    `pages` are the names of its interactive twins.
+    """
 
     figure: int | str
     title: str
@@ -29,6 +32,7 @@ class FigureResult:
     findings: tuple[Finding, ...]
     reason: str
     stamp: str
+    pages: tuple[str, ...] = ()
 
     @property
     def image(self) -> str:

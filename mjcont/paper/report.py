@@ -49,6 +49,12 @@ def _table(findings: Sequence[Finding]) -> tuple[list[str], list[list[str]]]:
     return heads, [[f.claim, f.computed, *([f.model] if named else []), verdict(f)] for f in findings]
 
 
+def _pages(r: FigureResult) -> list[tuple[str, str]]:
+    """Return what to call each interactive twin of a figure, and its file."""
+    return [(f"{r.label}, {middle}" if (middle := page.partition(".")[2].removesuffix("html").strip(".")) else r.label,
+             page) for page in r.pages]
+
+
 def markdown(results: Sequence[FigureResult], versions: Mapping[str, str]) -> str:
     """Return the report as Markdown."""
     title, summary = _heading(results, versions)
@@ -60,6 +66,8 @@ def markdown(results: Sequence[FigureResult], versions: Mapping[str, str]) -> st
             continue
         heads, rows = _table(r.findings)
         lines += [f"![{for_cell(r.label.capitalize())}]({quote(r.image)})", ""]
+        links = ", ".join(f"[{for_cell(name)}]({quote(file)})" for name, file in _pages(r))
+        lines += [f"To look at: {links}.", ""] if r.pages else []
         lines += ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
         lines += ["| " + " | ".join(map(for_cell, row)) + " |" for row in rows] + [""]
     return "\n".join(lines)
@@ -89,7 +97,11 @@ def as_html(results: Sequence[FigureResult], versions: Mapping[str, str]) -> str
         if r.reason:
             body += [f'<p class="fails">Failed: {for_page(r.reason)}</p>']
             continue
-        body += [f'<img src="{quote(r.image)}" alt="{for_page(r.label.capitalize())}">', "<table>"]
+        picture = f'<img src="{quote(r.image)}" alt="{for_page(r.label.capitalize())}">'
+        links = ", ".join(f'<a href="{quote(file)}">{for_page(name)}</a>' for name, file in _pages(r))
+        body += [f'<a href="{quote(r.pages[0])}">{picture}</a>' if r.pages else picture]
+        body += [f"<p>To look at, with the mechanism beside its curves: {links}.</p>"] if r.pages else []
+        body += ["<table>"]
         heads, rows = _table(r.findings)
         body += ["<tr>" + "".join(f"<th>{h}</th>" for h in heads) + "</tr>"]
         for f, row in zip(r.findings, rows, strict=True):

@@ -37,6 +37,7 @@ from mjcont.outside.saving import output_folder, write_file
 from mjcont.outside.sealing import digest
 from mjcont.paper.findings import FigureResult, Finding, label_of, stem
 from mjcont.paper.report import as_html, headline, markdown, verdict
+from mjcont.paper.twins import twins
 from mjcont.results.branch import Branch
 
 Progress = Callable[[Sequence[str], int, int], None]
@@ -123,7 +124,8 @@ def reproduce(
     figures : sequence of int, optional
         Their numbers; None or none for all there are.
     out : path
-        Folder, made if need be. It gets figNN.png and figNN.json; the report covers every figure in it that is up
+        Folder, made if need be. It gets figNN.png, figNN.json, and figNN.html, the figure's curves beside the
+        mechanism (of a second model figNN.MODEL.html); the report covers every figure in it that is up
         to date, those of earlier runs as well.
     jobs : int, optional
         Processes at a time; default one a processor.
@@ -231,7 +233,7 @@ def _draw(figure: int | str, script: Path, out: Path, stamp: str) -> None:
     end_with_parent(signal.SIG_DFL)
     matplotlib.rcdefaults()
     png, record = out / f"{stem(figure)}.png", _record(out, figure)
-    for old in (record, png):
+    for old in (record, png, *(out / p for p in twins(out, stem(figure)))):
         old.unlink(missing_ok=True)
     findings: tuple[Finding, ...] = ()
     reason = ""
@@ -241,7 +243,7 @@ def _draw(figure: int | str, script: Path, out: Path, stamp: str) -> None:
             raise MjcontError(f"{script.name} drew no {png.name}")
     except Exception as error:
         findings, reason = (), _one_line(error)
-    write_record(record, _result(figure, script, findings, reason, stamp), png)
+    write_record(record, _result(figure, script, findings, reason, stamp, twins(out, stem(figure))), png)
 
 
 def load_script(script: Path) -> ModuleType:
@@ -262,14 +264,16 @@ def _one_line(error: Exception) -> str:
     return text if isinstance(error, MjcontError) else f"{type(error).__name__}: {text}"
 
 
-def _result(figure: int | str, script: Path, findings: Sequence[Finding], reason: str, stamp: str) -> FigureResult:
+def _result(
+    figure: int | str, script: Path, findings: Sequence[Finding], reason: str, stamp: str, pages: tuple[str, ...] = ()
+) -> FigureResult:
     try:
         doc = ast.get_docstring(ast.parse(script.read_text(encoding="utf-8"))) or ""
     except SyntaxError:
         doc = ""
     first, _, caption = doc.partition("\n")
     title = first.rstrip(".") or label_of(figure).capitalize()
-    return FigureResult(figure, title, caption.strip(), tuple(findings), reason, stamp)
+    return FigureResult(figure, title, caption.strip(), tuple(findings), reason, stamp, pages)
 
 
 def _script(figure: int | str) -> Path:
@@ -294,7 +298,8 @@ def _read(out: Path, figure: int | str) -> FigureResult | None:
         if data.pop("sha256") != digest(data):
             return None
         picture = data.pop("picture")
-        result = FigureResult(**{**data, "findings": tuple(Finding(**f) for f in data["findings"])})
+        own = {"findings": tuple(Finding(**f) for f in data["findings"]), "pages": tuple(data["pages"])}
+        result = FigureResult(**{**data, **own})
         if picture and hashlib.sha256((out / result.image).read_bytes()).hexdigest() != picture:
             return None
         return result
@@ -305,7 +310,8 @@ def _read(out: Path, figure: int | str) -> FigureResult | None:
 def _up_to_date(out: Path, figure: int | str, stamp: str) -> FigureResult | None:
     """Return the result of an earlier run with the same script, models and sources, a failure among them."""
     result = _read(out, figure)
-    fresh = result is not None and result.stamp == stamp and (bool(result.reason) or (out / result.image).is_file())
+    fresh = result is not None and result.stamp == stamp and (
+        bool(result.reason) or all((out / file).is_file() for file in (result.image, *result.pages)))
     return result if fresh else None
 
 
@@ -323,6 +329,7 @@ def _stamp(figure: int | str) -> str:
     package, scripts = Path(str(resources.files("mjcont"))), scripts_folder()
     helpers = scripts.glob("_*.py")
     sources = [p for p in package.rglob("*.py") if scripts not in p.parents]
+    sources += (package / "explorer" / "web" / "dist").glob("explorer.*")
     files = [_script(figure), *sorted(helpers), *sorted(models_folder().glob("*.xml")), *sorted(sources)]
     digest = hashlib.sha256(json.dumps(versions(), sort_keys=True).encode())
     for path in files:

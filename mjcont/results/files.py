@@ -33,6 +33,7 @@ from mjcont.outside.sealing import sealed_file
 from mjcont.results.model import Model
 from mjcont.results.points import Column
 
+RESULT_SUFFIXES = (".h5", ".hdf5")
 FORMAT_VERSION = 3
 
 

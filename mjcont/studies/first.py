@@ -6,7 +6,6 @@ Parameters are tried, controls first, until a short curve of equilibria moves; w
 from __future__ import annotations
 
 import os
-import re
 import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -22,9 +21,9 @@ from mjcont.models.loading import shipped_models
 from mjcont.results.branch import Branch
 from mjcont.results.model import check_bounds
 from mjcont.results.quantities import Parameter
+from mjcont.studies.schema import key_text, quoted
 
 _ORDER = ("control", "input", "field", "spec", "gravity")
-_BARE = re.compile(r"[\w-]+")
 # of a trial: enough to see whether anything moves
 _POINTS, _SECONDS, _MOVES = 400, 5.0, 0.01
 _LISTED = 8
@@ -130,16 +129,16 @@ def first_study(source: str | Path, out: Path, mechanism: Mechanism) -> str:
         "#", f"#     mjcont run {out.name} -o out", "#",
         "# Lines that begin with # are suggestions: take the # away. `mjcont check` tells what is wrong, `mjcont docs",
         "# studies` what else there is, and with `mjcont schema` an editor completes this file.",
-        "", f"model = {_text(_model(source, out))}", "", "[parameters]            # values for all results",
+        "", f"model = {quoted(_model(source, out))}", "", "[parameters]            # values for all results",
         *_others(look), "", "[[branch]]", 'name = "equilibria"',
-        f"parameter = {_text(name)}    # {_why(p)}",
+        f"parameter = {quoted(name)}    # {_why(p)}",
         f"bounds = [{low}, {high}]    # {'' if p.unit == 'rad' else (p.unit or 'no unit') + ', '}its own range",
     ]
-    lines += [f"start = {{ {_key(n)} = {_value(v, p.unit)} }}" for n, v in start.items()]
-    lines += [f"keyframe = {_text(k)}    # a place of rest" if k == look.keyframe else f"# keyframe = {_text(k)}"
+    lines += [f"start = {{ {key_text(n)} = {_value(v, p.unit)} }}" for n, v in start.items()]
+    lines += [f"keyframe = {quoted(k)}    # a place of rest" if k == look.keyframe else f"# keyframe = {quoted(k)}"
               for k in look.starts if k is not None]
-    lines += ["csv = true", "", "[[plot]]", 'file = "equilibria.png"', f"x = {_text(name)}",
-              f"y = {_text(look.shown)}    # what moves most; others: {_listed(look)}", ""]
+    lines += ["csv = true", "", "[[plot]]", 'file = "equilibria.png"', f"x = {quoted(name)}",
+              f"y = {quoted(look.shown)}    # what moves most; others: {_listed(look)}", ""]
     lines += _onward(look)
     return "\n".join(lines) + "\n"
 
@@ -147,7 +146,7 @@ def first_study(source: str | Path, out: Path, mechanism: Mechanism) -> str:
 def _others(look: First) -> list[str]:
     """Return the other parameters at the model's values, as suggestions."""
     others = [p for p in candidates(look.mechanism) if p is not look.parameter][:_LISTED]
-    return [f"# {_key(p.name)} = {_value(p.value, p.unit)}    # {p.unit or '1'}; {_why(p)}" for p in others]
+    return [f"# {key_text(p.name)} = {_value(p.value, p.unit)}    # {p.unit or '1'}; {_why(p)}" for p in others]
 
 
 def _onward(look: First) -> list[str]:
@@ -160,7 +159,7 @@ def _onward(look: First) -> list[str]:
     low, high = (_value(b, second.unit) for b in second.bounds)
     return [
         f"# [[loci]]              # how {fold} moves with a second parameter", '# name = "locus"',
-        f'# point = "equilibria:{fold}"', f"# parameter = {_text(second.name)}", f"# bounds = [{low}, {high}]", "",
+        f'# point = "equilibria:{fold}"', f"# parameter = {quoted(second.name)}", f"# bounds = [{low}, {high}]", "",
         f"# [[sensitivities]]     # what {fold} depends on most",
         '# name = "influence"', f'# point = "equilibria:{fold}"',
     ]
@@ -186,12 +185,3 @@ def _model(source: str | Path, out: Path) -> str:
 
 def _value(value: float, unit: str) -> str:
     return f'"{np.degrees(value):.10g} deg"' if unit == "rad" else f"{value:.10g}"
-
-
-def _text(text: str) -> str:
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in escaped) + '"'
-
-
-def _key(name: str) -> str:
-    return name if _BARE.fullmatch(name) and name.isascii() else _text(name)

@@ -13,9 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from mjcont.arguments import checked
-from mjcont.errors import StudyError, did_you_mean, unknown_name
+from mjcont.errors import ResultFileError, StudyError, did_you_mean, unknown_name
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.loading import shipped_folder, shipped_models
+from mjcont.results.files import RESULT_SUFFIXES
+from mjcont.results.formats import load
 from mjcont.results.quantities import FRICTION
 from mjcont.studies import forms as f
 from mjcont.studies.answers import ANSWER, AnswerPlan, read_answer
@@ -35,7 +37,7 @@ DECLARE = f.table({"targets": {**f.TEXTS, "minItems": 1}, "unit": f.TEXT, "bound
                   text="A parameter that the model does not declare itself.")
 TOP: Mapping[str, f.Form] = {
     "version": {"const": STUDY_VERSION, "description": "Version of this schema."},
-    "model": {**f.TEXT, "description": "An MJCF file, relative to the study, or a model that ships with mjcont."},
+    "model": {**f.TEXT, "description": "An MJCF file or a result file, relative to the study, or a model that ships."},
     "friction": {**f.choice(*FRICTION), "description": "Leave friction out of equilibria, or refuse models with it."},
     "parameters": {**f.VALUES, "description": "Values for every result, by the parameters' names."},
     "declare": {"type": "object", "additionalProperties": DECLARE},
@@ -89,7 +91,7 @@ class PlotPlan:
 
 @dataclass(frozen=True, slots=True)
 class Study:
-    """A checked study file with its model."""
+    """A checked study file with its model; `common` are the values for all results."""
 
     file: str
     mechanism: Mechanism = field(repr=False)
@@ -99,6 +101,7 @@ class Study:
     sweep: SweepPlan | None = None
     friction: str = FRICTION[0]
     answer: AnswerPlan | None = None
+    common: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def plans(self) -> tuple[BranchPlan | Task, ...]:
@@ -159,8 +162,16 @@ def check_study(path: str | Path, *, friction: str | None = None) -> tuple[Study
     A line reads `FILE: table[i].key: what is wrong, with the valid choices`.
     """
     path = located(path)
-    study, problems = _read(path, friction)
-    lines = (str(p).replace(f"study '{path}': ", f"{path}: ", 1) for p in problems)
+    return _told(path, *_read(path, friction))
+
+
+def check_data(data: Mapping[str, Any], file: str | Path) -> tuple[Study | None, list[str]]:
+    """Return what `check_study` does for the tables of a study; `file` is what messages call it, and where it lies."""
+    return _told(file, *_checked(data, Path(file), None, Context(None)))
+
+
+def _told(file: str | Path, study: Study | None, problems: Sequence[StudyError]) -> tuple[Study | None, list[str]]:
+    lines = (str(p).replace(f"study '{file}': ", f"{file}: ", 1) for p in problems)
     return study, list(dict.fromkeys(" ".join(line.split()) for line in lines))
 
 
@@ -183,9 +194,15 @@ def _read(path: str | Path, friction: str | None) -> tuple[Study | None, list[St
     context = Context(None)
     data: dict[str, Any] = {}
     with context.noting():
-        data = _parse(Path(path))
+        data = parse(Path(path))
     if context.problems:
         return None, context.problems
+    return _checked(data, path, friction, context)
+
+
+def _checked(
+    data: Mapping[str, Any], path: Path, friction: str | None, context: Context
+) -> tuple[Study | None, list[StudyError]]:
     root = Table(str(path), data)
     check_keys(root, TOP, ("model",), context)
     with context.noting():
@@ -193,7 +210,7 @@ def _read(path: str | Path, friction: str | None) -> tuple[Study | None, list[St
         if version != STUDY_VERSION:
             raise root.error("version", f"this mjcont reads version {STUDY_VERSION}, the file has {version}")
     with context.noting():
-        context.mechanism = _load_model(root, Path(path).parent, friction) if "model" in data else None
+        context.mechanism = _load_model(root, path.parent, friction) if "model" in data else None
     if context.mechanism is not None:
         _prepare(root, context)
     study = _assemble(root, context, friction)
@@ -250,7 +267,8 @@ def _assemble(root: Table, context: Context, friction: str | None) -> Study:
         if context.mechanism is not None:
             sweep = read_sweep(root, context.mechanism, tuple(branches))
     answer = read_answer(root, context)
-    return Study(root.file, context.mechanism, tuple(branches), tuple(plots), tuple(tasks), sweep, asked, answer)
+    made = tuple(branches), tuple(plots), tuple(tasks)
+    return Study(root.file, context.mechanism, *made, sweep, asked, answer, dict(context.common))
 
 
 def _tables(root: Table, key: str, context: Context) -> Sequence[Table]:
@@ -283,7 +301,14 @@ def _claim_branches(named: Sequence[Table], root: Table, context: Context) -> No
                 raise table.error("name", f"'{name}' is what the table of the study's sweep is called")
 
 
-def _parse(path: Path) -> dict[str, Any]:
+def parse(path: Path) -> dict[str, Any]:
+    """Return the tables of a study file.
+
+    Raises
+    ------
+    StudyError
+        If there is no such file, or it is no TOML.
+    """
     if not path.is_file():
         what = "is a folder, not a file" if path.is_dir() else "no such file"
         names = shipped_studies()
@@ -309,9 +334,25 @@ def _load_model(root: Table, folder: Path, friction: str | None) -> Mechanism:
     friction = friction or asked
     beside = folder / name
     with about(root, "model"):
+        if beside.suffix.lower() in RESULT_SUFFIXES:
+            return model_in(beside)
         if not beside.is_file() and name in shipped_models():
             return Mechanism.from_xml(name, friction=friction)
         return Mechanism.from_xml(beside, friction=friction)
+
+
+def model_in(path: Path) -> Mechanism:
+    """Return the mechanism that a result file carries.
+
+    Raises
+    ------
+    ResultFileError
+        If the file cannot be read, or carries none.
+    """
+    problem = getattr(load(path), "problem", None)
+    if not isinstance(problem, Mechanism):
+        raise ResultFileError(f"result file '{path}' carries no model: name the MJCF file itself")
+    return problem
 
 
 def _declare(declare: Table, name: str, mechanism: Mechanism) -> None:

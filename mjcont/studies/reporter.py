@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +18,25 @@ class Range:
     low: float
     high: float
     unit: str
+
+
+class Swept:
+    """Which share of its range the parameter of a curve has been through: a guess of how far the curve is."""
+
+    def __init__(self, ranges: Mapping[str, Range]) -> None:
+        self.ranges = ranges
+        self._reached: dict[str, tuple[float, float]] = {}
+
+    def share(self, parameters: Mapping[str, float]) -> float:
+        """Return the share once a point is reached, NaN where nobody knows."""
+        shares = [self._share(name, value) for name, value in parameters.items() if name in self.ranges]
+        return max(shares, default=math.nan)
+
+    def _share(self, name: str, value: float) -> float:
+        low, high = self._reached.get(name, (value, value))
+        self._reached[name] = low, high = min(low, value), max(high, value)
+        span = self.ranges[name]
+        return (high - low) / (span.high - span.low)
 
 
 class Reporter:

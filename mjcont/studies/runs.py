@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +23,13 @@ from mjcont.studies.reporter import Reporter
 
 @dataclass(frozen=True, slots=True)
 class Running:
-    """What a computation works with: the model, the folder for files, the results so far, who hears of it."""
+    """What a computation works with: the model, the folder for files, the results so far, who hears of it.
+
+    Without a folder nothing is stored or drawn.
+    """
 
     mechanism: Any
-    folder: Path
+    folder: Path | None
     done: Mapping[str, Any]
     reporter: Reporter
 
@@ -214,9 +218,7 @@ def _history(plan: Task, at: Running) -> Outcome:
         **{key: g[key] for key in ("timestep", "integrator", "tol", "until_rest", "samples")},
     )
     files = store_curve(found, plan.name, g["csv"], at.folder)
-    if g["columns"]:
-        files.append(_drawn(found.plot(*g["columns"]), plan, at))
-    return found, files
+    return found, [*files, *(_drawn(partial(found.plot, *g["columns"]), plan, at) if g["columns"] else [])]
 
 
 def _sensitivity(plan: Task, at: Running) -> Outcome:
@@ -226,7 +228,7 @@ def _sensitivity(plan: Task, at: Running) -> Outcome:
     found = sensitivities(
         point_of(at.done, g["point"]), g["parameters"], quantities=g["quantities"], tolerances=g["tolerances"]
     )
-    return found, [*_table(found, plan, at), *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+    return found, [*_table(found, plan, at), *(_drawn(found.plot, plan, at) if g["png"] else [])]
 
 
 def _worst(plan: Task, at: Running) -> Outcome:
@@ -248,8 +250,7 @@ def _map(plan: Task, at: Running) -> Outcome:
     files = _table(found, plan, at)
     if g["png"] and found.exists.any():
         options = {"kind": g["kind"]} if len(found.axes) == 2 else {}
-        axes = found.plot(g["quantity"] or next(iter(found.point.free)), **options)
-        files.append(_drawn(axes, plan, at))
+        files += _drawn(partial(found.plot, g["quantity"] or next(iter(found.point.free)), **options), plan, at)
     return found, files
 
 
@@ -262,7 +263,7 @@ def _certificate(plan: Task, at: Running) -> Outcome:
         **{key: g[key] for key in ("amplitude", "tolerance", "max_steps")},
     )
     certificate = found.certificate
-    files = [found.save(at.folder / f"{plan.name}.h5")]
+    files = store_curve(found, plan.name, False, at.folder)
     return certificate, [*files, *(_table(certificate, plan, at) if certificate is not None else [])]
 
 
@@ -272,7 +273,7 @@ def _barrier(plan: Task, at: Running) -> Outcome:
     g = plan.given
     saddles = [b for name in g["saddles"] for b in curves_of(at.done, name)]
     found = barrier_along(curve_of(at.done, g["branch"]), saddles, search=g["search"], progress=at.reporter.step)
-    return found, [*_table(found, plan, at), *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+    return found, [*_table(found, plan, at), *(_drawn(found.plot, plan, at) if g["png"] else [])]
 
 
 def _modes(plan: Task, at: Running) -> Outcome:
@@ -280,8 +281,8 @@ def _modes(plan: Task, at: Running) -> Outcome:
 
     g = plan.given
     found = modes(point_of(at.done, g["point"]))
-    files = [found.save(at.folder / f"{plan.name}.h5"), *_table(found, plan, at)]
-    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+    files = store_curve(found, plan.name, g["csv"], at.folder)
+    return found, [*files, *(_drawn(found.plot, plan, at) if g["png"] else [])]
 
 
 def _transfer(plan: Task, at: Running) -> Outcome:
@@ -292,8 +293,8 @@ def _transfer(plan: Task, at: Running) -> Outcome:
     g = plan.given
     hertz = np.geomspace(g["frequencies"][0], g["frequencies"][1], g["count"]) if g["frequencies"] else None
     found = transfer(point_of(at.done, g["point"]), g["input"], g["output"] or None, hertz)
-    files = [found.save(at.folder / f"{plan.name}.h5"), *_table(found, plan, at)]
-    return found, [*files, *([_drawn(found.plot(), plan, at)] if g["png"] else [])]
+    files = store_curve(found, plan.name, g["csv"], at.folder)
+    return found, [*files, *(_drawn(found.plot, plan, at) if g["png"] else [])]
 
 
 _RUNS: Mapping[str, Callable[[Task, Running], Outcome]] = {
@@ -309,17 +310,19 @@ def _given(values: Mapping[str, Any], *keys: str) -> dict[str, Any]:
 
 
 def _table(found: Tabular, plan: Task, at: Running) -> list[Path]:
-    return [found.to_csv(at.folder / f"{plan.name}.csv")] if plan.given["csv"] else []
+    return [found.to_csv(at.folder / f"{plan.name}.csv")] if plan.given["csv"] and at.folder is not None else []
 
 
-def _drawn(picture: Any, plan: Task, at: Running) -> Path:
+def _drawn(draw: Callable[[], Any], plan: Task, at: Running) -> list[Path]:
     from mjcont.drawing.plotting import save_figure
 
-    return save_figure(picture.figure, at.folder / f"{plan.name}.png")
+    return [save_figure(draw().figure, at.folder / f"{plan.name}.png")] if at.folder is not None else []
 
 
-def store_curve(result: Any, name: str, csv: bool, folder: Path) -> list[Path]:
-    """Store a branch, a locus, a load path or a history."""
+def store_curve(result: Any, name: str, csv: bool, folder: Path | None) -> list[Path]:
+    """Store what has a file of its own, such as a branch, a locus, a load path or a history."""
+    if folder is None:
+        return []
     files = [result.save(folder / f"{name}.h5")]
     return [*files, result.to_csv(folder / f"{name}.csv")] if csv else files
 

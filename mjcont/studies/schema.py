@@ -1,4 +1,4 @@
-"""Checked reading of TOML tables and of quantities with units; every message names the file and the key.
+"""TOML tables and quantities with units: checked reading, whose messages name the file and the key; and writing.
 
 Knows nothing of mechanisms: what a study consists of is in `study`.
 """
@@ -17,6 +17,8 @@ from mjcont.results.units import conversion, fitting, measured
 _QUANTITY = re.compile(r"\s*(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(?P<unit>.*?)\s*")
 _LARGEST = 1e300
 _BARE_KEY = re.compile(r"[\w-]+(\[\d+\])*")
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+
 
 def quantity(value: Any, unit: str) -> float:
     """Return a number, or a string such as "20 deg", in `unit` (any unit will do where it is empty).
@@ -153,3 +155,40 @@ class Table:
         words = {match["unit"] for item in items if isinstance(item, str) and (match := _QUANTITY.fullmatch(item))}
         if plain and set(units) == {"rad"} and any(word and measured(word) != measured("rad") for word in words):
             raise self.error(key, f"{shown(plain[0])} has no unit, as others beside it have: say the unit of each")
+
+
+def quoted(text: str) -> str:
+    """Return a TOML string."""
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join(c if c.isprintable() else f"\\U{ord(c):08x}" for c in escaped) + '"'
+
+
+def key_text(name: str) -> str:
+    """Return a TOML key, in quotes where it needs them."""
+    return name if _BARE.fullmatch(name) else quoted(name)
+
+
+def value_text(value: Any) -> str:
+    """Return a value as TOML has it, tables within braces; numbers are read back to the bit."""
+    if isinstance(value, str):
+        return quoted(value)
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, Mapping):
+        inner = ", ".join(f"{key_text(k)} = {value_text(v)}" for k, v in value.items())
+        return f"{{ {inner} }}" if inner else "{}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(value_text(v) for v in value)}]"
+    return repr(float(value)) if isinstance(value, float) else str(value)
+
+
+def toml_text(data: Mapping[str, Any]) -> str:
+    """Return tables of a study as the text of its file: plain keys, then tables, then arrays of tables."""
+    lines = [f"{key_text(k)} = {value_text(v)}" for k, v in data.items() if not isinstance(v, Mapping | list)]
+    for key, value in data.items():
+        if isinstance(value, Mapping):
+            lines += ["", f"[{key_text(key)}]", *(f"{key_text(k)} = {value_text(v)}" for k, v in value.items())]
+    for key, value in data.items():
+        for table in value if isinstance(value, list) else ():
+            lines += ["", f"[[{key_text(key)}]]", *(f"{key_text(k)} = {value_text(v)}" for k, v in table.items())]
+    return "\n".join(lines) + "\n"

@@ -15,13 +15,13 @@ from mjcont.errors import MjcontError
 from mjcont.outside.saving import output_folder
 from mjcont.results.model import units
 from mjcont.results.points import show
-from mjcont.studies.plans import BranchPlan, PlotPlan, Study, Task, check_study, load_study
+from mjcont.studies.plans import BranchPlan, PlotPlan, Study, Task, check_data, check_study, load_study
 from mjcont.studies.reporter import Range, Reporter
 from mjcont.studies.runs import Running, compute, curves_of, interrupted, start_of, store_curve, task_line
 
 __all__ = [
-    "BranchPlan", "PlotPlan", "Study", "Task", "check_study", "interruption", "load_study", "output_folder",
-    "run_study", "summary",
+    "BranchPlan", "PlotPlan", "Study", "Task", "check_data", "check_study", "interruption", "load_study", "named",
+    "output_folder", "run_plan", "run_study", "summary",
 ]
 
 
@@ -58,9 +58,7 @@ def run_study(study: Study, out: str | Path, reporter: Reporter | None = None) -
         place = number, len(study.plans)
         result, files = _compute(study, plan, place, Running(study.mechanism, folder, done, reporter))
         results.append(result)
-        done[plan.name] = result
-        if isinstance(plan, Task) and plan.kind == "diagram":
-            done |= {f"{plan.name}_{i}": branch for i, branch in enumerate(result, 1)}
+        done |= named(plan, result)
         reporter.finished(result, files)
         if interrupted(result):
             break
@@ -68,6 +66,17 @@ def run_study(study: Study, out: str | Path, reporter: Reporter | None = None) -
             open_plots.remove(plot)
             reporter.plotted(draw(plot, done, folder))
     return results
+
+
+def named(plan: BranchPlan | Task, result: Any) -> dict[str, Any]:
+    """Return a result under its name, and the branches of a diagram D under D_1, D_2, ..."""
+    parts = result if isinstance(plan, Task) and plan.kind == "diagram" else ()
+    return {plan.name: result, **{f"{plan.name}_{i}": branch for i, branch in enumerate(parts, 1)}}
+
+
+def run_plan(study: Study, plan: BranchPlan | Task, done: Mapping[str, Any], reporter: Reporter) -> Any:
+    """Compute one table of a study from the results that it names, by name; nothing is stored or drawn."""
+    return _compute(study, plan, (1, 1), Running(study.mechanism, None, done, reporter))[0]
 
 
 def interruption(study: Study, results: Sequence[Any], out: str | Path) -> str:

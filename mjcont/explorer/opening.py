@@ -1,0 +1,131 @@
+"""What a session begins with: a model, a study or a result becomes tables of a study, and results that are there."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from mjcont.errors import MjcontError, ResultFileError, StudyError
+from mjcont.mechanism.mechanism import Mechanism
+from mjcont.models.loading import shipped_models
+from mjcont.numerics.equations import clock
+from mjcont.results.branch import Branch
+from mjcont.results.files import RESULT_SUFFIXES
+from mjcont.results.formats import load
+from mjcont.results.orbits import CycleBranch
+from mjcont.studies.first import first_look
+from mjcont.studies.plans import check_study, located, parse
+from mjcont.studies.schema import toml_text
+
+EQUILIBRIA = "equilibria"
+# s after which whoever opened a model would rather choose what to vary
+_SOON = 15.0
+
+
+@dataclass(frozen=True, slots=True)
+class Opened:
+    """The tables of a study, and what is there besides.
+
+    Attributes
+    ----------
+    tables : as TOML has them; none of a result in a bare model's, and of a result that no table computes again.
+    results : by name, those that need not be computed any more.
+    mechanism : the model, None where the tables are to be read for it.
+    computes : whether there is something to compute before the first click.
+    """
+
+    tables: Mapping[str, Any]
+    results: Mapping[str, Any] = field(default_factory=dict)
+    mechanism: Mechanism | None = None
+    computes: bool = True
+
+
+def opened(source: str) -> Opened:
+    """Return what a session begins with: of a model, of a study (`.toml`), or of a result file (`.h5`).
+
+    Raises
+    ------
+    MjcontError
+        If it cannot be read, or has no model.
+    """
+    path = Path(source)
+    if path.suffix.lower() == ".toml":
+        return _of_study(path)
+    if path.suffix.lower() in RESULT_SUFFIXES:
+        return _of_result(path)
+    if not path.is_file() and source in shipped_models():
+        return Opened({"model": source}, mechanism=Mechanism.from_xml(source))
+    return Opened({"model": str(path.resolve())}, mechanism=Mechanism.from_xml(path))
+
+
+def reopened(study: str) -> Opened:
+    """Return what goes on with the text of a session's study."""
+    return Opened(tomllib.loads(study))
+
+
+def _of_study(given: Path) -> Opened:
+    path = located(given)
+    study, problems = check_study(path)
+    if study is None:
+        more = f" ({len(problems) - 1} more: see `mjcont check`)" if len(problems) > 1 else ""
+        raise StudyError(problems[0] + more)
+    tables = parse(path)
+    beside = path.parent / tables["model"]
+    return Opened({**tables, **({"model": str(beside.resolve())} if beside.is_file() else {})})
+
+
+def _of_result(path: Path) -> Opened:
+    """Return a result, with the table that computes it again where it is a branch of equilibria."""
+    result = load(path)
+    mechanism = getattr(result, "problem", None)
+    if not isinstance(mechanism, Mechanism):
+        raise ResultFileError(f"'{path}' carries no model of a mechanism: the explorer needs one")
+    tables: dict[str, Any] = {"model": str(path.resolve())}
+    if not isinstance(result, Branch) or isinstance(result, CycleBranch) or result.kind != "equilibria":
+        return Opened(tables, {"result": result}, mechanism, computes=False)
+    return Opened({**tables, **_again(result, mechanism)}, {EQUILIBRIA: result}, mechanism, computes=False)
+
+
+def study_of(path: Path, result: Any) -> str:
+    """Return the text of a study that computes a stored branch of equilibria again; empty for other results.
+
+    Its model is the one in the file, beside which it is to lie.
+    """
+    mechanism = getattr(result, "problem", None)
+    if not isinstance(mechanism, Mechanism) or not isinstance(result, Branch) or result.kind != "equilibria":
+        return ""
+    return toml_text({"model": path.name, **_again(result, mechanism)})
+
+
+def _again(branch: Branch, mechanism: Mechanism) -> dict[str, Any]:
+    """Return the tables that compute a branch again, from its own start."""
+    usual = mechanism.values()
+    fixed = {n: float(v) for n, v in branch.fixed.items() if n not in usual or usual[n] != v}
+    ((name, bounds),) = branch.free.items()
+    start = branch.start_index
+    ways = {0: 1, len(branch) - 1: -1}
+    one_way = {"direction": ways[start]} if len(branch.ends) == 1 and start in ways else {}
+    table = {
+        "name": EQUILIBRIA, "parameter": name, "bounds": [float(b) for b in bounds],
+        "start": {name: float(branch[name][start])}, "state": [float(x) for x in branch.states[start]], **one_way,
+    }
+    if branch.settings:
+        table["settings"] = dict(branch.settings)
+    return {"parameters": fixed, "branch": [table]} if fixed else {"branch": [table]}
+
+
+def first_table(mechanism: Mechanism) -> dict[str, Any] | None:
+    """Return the table of a first branch of a model, None if nothing that moves it is found soon."""
+    try:
+        with clock.limited(_SOON):
+            look = first_look(mechanism)
+    except (MjcontError, clock.TimeUp):
+        return None
+    low, high = look.bounds
+    value = look.parameter.value
+    inside = {} if low <= value <= high else {"start": {look.parameter.name: 0.5 * (low + high)}}
+    key = {"keyframe": look.keyframe} if look.keyframe is not None else {}
+    return {"parameter": look.parameter.name, "bounds": [low, high], **inside, **key}

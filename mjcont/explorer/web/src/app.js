@@ -1,0 +1,126 @@
+// The page put together: a document, the panels that draw it, and a session's transport where there is one.
+
+import { poseOf, poseOfOrbit } from "./data.js";
+import { Diagram } from "./diagram.js";
+import { h, icon } from "./dom.js";
+import { give } from "./download.js";
+import { Grid } from "./grid.js";
+import { listen } from "./keyboard.js";
+import { frame, withPicture } from "./layout.js";
+import { Live } from "./live.js";
+import { Locus } from "./locus.js";
+import { Mechanism, sceneOf } from "./mechanism.js";
+import { Motion } from "./motion.js";
+import { Player } from "./player.js";
+import { Readout } from "./readout.js";
+import { Spectrum } from "./spectrum.js";
+import { Store } from "./store.js";
+import { Tornado } from "./tornado.js";
+
+const VERSION = 1;
+const FRAMED = 40;
+
+/** Draw a document into an element; `transport` speaks with a session, null for a page of its own. */
+export function mount(root, document, transport = null) {
+  if (document.format !== "mjcont explorer" || document.version > VERSION)
+    throw new Error(`this page draws documents of version ${VERSION}, not ${document.version}`);
+  const store = new Store(document),
+    made = frame(root, document.title),
+    { panels } = made;
+  store.live = Boolean(transport);
+  const mechanism = document.scene
+    ? new Mechanism(panels.mechanism.body, sceneOf(document.scene), `The mechanism ${document.title}`)
+    : null;
+  panels.mechanism.show(Boolean(mechanism));
+  const readout = new Readout(made.side, store),
+    player = new Player(made.player, store);
+  const plots = {
+    diagram: new Diagram(panels.diagram, store),
+    locus: new Locus(panels.locus, store),
+    spectrum: new Spectrum(panels.spectrum, store),
+    motion: new Motion(panels.motion, store),
+    grid: new Grid(panels.grid, store),
+  };
+  new Tornado(panels.tornado, store);
+  made.side.append(...readout.after, versions(document));
+  for (const [name, plot] of Object.entries(plots)) withPicture(panels[name], () => plot.plot.svg);
+  made.arrange();
+  store.on("curves", made.arrange);
+  if (mechanism) follow(mechanism, store, panels.mechanism);
+  listen(root, store, player);
+  buttons(made.actions, store);
+  const live = transport ? new Live(made, store, transport) : null;
+  store.on("play", () => player.play());
+  const explorer = { store, mechanism, panels, plots, player, live };
+  root.explorer = explorer;
+  return explorer;
+}
+
+/** Let the mechanism take the pose of what is selected. */
+function follow(mechanism, store, panel) {
+  const pose = () => {
+    const { curve, row, sample } = store;
+    if (!curve?.rows) return mechanism.scene.pose;
+    return curve?.orbit?.poses ? poseOfOrbit(curve, row, sample) : poseOf(curve, row);
+  };
+  const frameAll = () => {
+    const poses = [];
+    for (const curve of store.curves.filter((c) => c.poses))
+      for (let k = 0, n = Math.min(FRAMED, curve.rows); k < n; k++)
+        poses.push(poseOf(curve, Math.round((k * (curve.rows - 1)) / Math.max(n - 1, 1))));
+    mechanism.frame(poses.length ? poses : [mechanism.scene.pose]);
+  };
+  const here = () => mechanism.pose(pose());
+  store.on("row", here);
+  store.on("curve", here);
+  store.on("curves", () => {
+    if (!mechanism.framed || mechanism.framed[0] === mechanism.scene.pose) frameAll();
+    here();
+  });
+  frameAll();
+  here();
+  panel.tools.append(
+    h(
+      "button",
+      { class: "icon", title: "Show all", "aria-label": "Show all of the mechanism", onclick: frameAll },
+      icon("all"),
+    ),
+  );
+  withPicture(panel, () => mechanism.picture());
+}
+
+function buttons(host, store) {
+  const { study, title } = store.document;
+  if (study && !store.live)
+    host.append(
+      h(
+        "button",
+        { class: "take study", onclick: () => give("study.toml", store.document.study, "text/plain") },
+        "study.toml",
+      ),
+    );
+  host.append(
+    h(
+      "button",
+      {
+        class: "take theme",
+        "aria-label": "Light or dark",
+        title: "Light or dark",
+        onclick: () => {
+          const root = host.closest(".mjx"),
+            dark = root.dataset.theme
+              ? root.dataset.theme === "dark"
+              : matchMedia("(prefers-color-scheme: dark)").matches;
+          root.dataset.theme = dark ? "light" : "dark";
+        },
+      },
+      icon("theme"),
+    ),
+  );
+  host.dataset.title = title;
+}
+
+function versions(document) {
+  const { mjcont, mujoco } = document.made;
+  return h("p", { class: "made" }, `mjcont ${mjcont}, MuJoCo ${mujoco}`);
+}
