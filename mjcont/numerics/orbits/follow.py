@@ -7,12 +7,12 @@ corrected again, and the next piece begins there in the same direction.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mjcont.numerics.equations.clock import TimeUp
 from mjcont.numerics.equations.newton import Corrected, correct, solve
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused
@@ -32,7 +32,7 @@ from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.steps import End, Item, Leap, Neutral, Status
-from mjcont.numerics.walk.trace import Trace, Walker
+from mjcont.numerics.walk.trace import Trace, Walker, time_up
 
 # a new mesh is to have this part of the tolerance, so that it lasts
 _LASTS = 0.1
@@ -179,7 +179,7 @@ class Follower:
 
     def follow(self, system: System, start: CurvePoint) -> Iterator[Item]:
         """Yield the points after `start`, special points in their places, and the end."""
-        began, count, h = time.monotonic(), 1, self.settings.ds
+        count, h = 1, self.settings.ds
         longest = self.meshes.period_max * _period(start)
         fresh = self._resolved(system, start)
         if isinstance(fresh, End):
@@ -193,7 +193,6 @@ class Follower:
             left = replace(
                 self.settings, ds=h, ds_min=min(self.settings.ds_min, h),
                 max_points=max(self.settings.max_points - count + 1, 2),
-                max_seconds=max(self.settings.max_seconds - (time.monotonic() - began), 0.0),
             )
             first = point
             walker = Walker(
@@ -387,6 +386,8 @@ def trace_orbits(
                 result.points.append(item)
             if progress is not None:
                 progress(item)
+    except TimeUp:
+        result.end = time_up(follower.settings)
     except KeyboardInterrupt:
         result.end = End(Status.INTERRUPTED, f"stopped by the user after {len(result.points)} points")
     return result
