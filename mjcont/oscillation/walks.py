@@ -10,6 +10,7 @@ import numpy as np
 
 from mjcont.curves.collect import Progress
 from mjcont.errors import ParameterError, StartError, unknown_name
+from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused
@@ -20,7 +21,7 @@ from mjcont.numerics.orbits.scheme import GAUSS, RADAU, SCHEMES, scheme
 from mjcont.numerics.points.events import Detector
 from mjcont.numerics.step.arclength import CurvePoint, tangent_at
 from mjcont.numerics.walk.steps import End, Status
-from mjcont.numerics.walk.trace import Trace
+from mjcont.numerics.walk.trace import Trace, time_up
 from mjcont.oscillation.collect import collect, flow_at, make_orbit, reporter, verdict
 from mjcont.oscillation.conserving import flow_as_recorded
 from mjcont.oscillation.fields import FieldFlow
@@ -163,24 +164,32 @@ def run(
     """Walk from each entry and collect the curve; `special` where it is one of special orbits, `periods` of several."""
     traces: list[Trace] = []
     report = reporter(progress)
+    follower = Follower(options.settings, options.meshes, point_stop(stop), periods=periods)
+    if special is not None:
+        follower = replace(follower, detectors=special.detectors, held=special.held, end_at=special.end_at)
+    within = clock.allowance(options.settings.max_seconds)
     for entry in entries:
         if traces and traces[-1].end.status in (Status.CLOSED, Status.INTERRUPTED):
             break
-        with np.errstate(all="ignore"):
-            x, y = entry.x, entry.y
-            way = along_parameter(system, x, y, entry.direction) if entry.row is None else entry.row
-            first = entered(system, x, y, way, options.settings)
-            if isinstance(first, Refused):
-                traces.append(Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}")))
-                continue
-            follower = Follower(options.settings, options.meshes, point_stop(stop), periods=periods)
-            if special is not None:
-                follower = replace(follower, detectors=special.detectors, held=special.held, end_at=special.end_at)
-            traces.append(trace_orbits(follower, system, first, report))
+        with np.errstate(all="ignore"), within():
+            traces.append(_walked(follower, system, entry, report))
     if not any(t.points for t in traces):
         raise StartError("; ".join(t.end.message for t in traces))
     directions = [e.direction for e in entries]
     return collect(kind, system, traces, directions, origin, options.settings, options.meshes, notes)
+
+
+def _walked(follower: Follower, system: System, entry: Entry, report: Callable[[Any], None] | None) -> Trace:
+    """Return the walk from an entry, as far as time allows."""
+    x, y = entry.x, entry.y
+    try:
+        way = along_parameter(system, x, y, entry.direction) if entry.row is None else entry.row
+        first = entered(system, x, y, way, follower.settings)
+    except clock.TimeUp:
+        return Trace([], end=time_up(follower.settings))
+    if isinstance(first, Refused):
+        return Trace([], end=End(Status.NO_START, f"the curve could not be entered: {first}"))
+    return trace_orbits(follower, system, first, report)
 
 
 def along_parameter(system: System, x: Array, y: Array, direction: float) -> Array:

@@ -91,6 +91,22 @@ def test_multipliers_of_a_cone_are_those_of_rest_in_turning_axes():
     assert among(orbit.multipliers, np.exp(orbit.period * exponents), 1e-8)
 
 
+@pytest.mark.long
+def test_folds_of_cones_lie_where_rest_folds_in_turning_axes():
+    mechanism = rod(True, joint='stiffness="2" damping="0.1"', inertia=(0.11, 0.11, 0.02))
+    mechanism.declare("k", "joint:hip.stiffness", bounds=(0.5, 5.0))
+    forcing = {"F": mc.Harmonic(0.5), "G": mc.Harmonic(0.5, phase=-math.pi / 2)}
+    response = mc.continue_response(mechanism, "frequency", (0.75, 0.9), forcing, chord=0.5)
+    curve = mc.continue_special(response.point("LPC1"), "k", {"frequency": (0.7, 1.0), "k": (1.0, 3.0)})
+    for frequency, k, orbit in list(zip(curve["frequency"], curve["k"], curve.orbits, strict=True))[::4]:
+        cosine, axis = orbit.states[0, 0], orbit.states[0, 1:]
+        x = 2.0 * math.atan2(np.linalg.norm(axis), cosine) * axis / np.linalg.norm(axis)
+        w = 2.0 * math.pi * frequency
+        known = Cone(w, 0.5, stiffness=k, damping=0.1).folding(np.append(x, w))
+        assert frequency == pytest.approx(known / (2.0 * math.pi), abs=1e-7)
+    assert curve.special_points == ()
+
+
 # -- a free body ----------------------------------------------------------------------------------------------------
 
 

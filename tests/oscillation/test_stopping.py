@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import replace
 
 import pytest
@@ -29,6 +30,18 @@ def test_progress_counts_orbits_and_names_what_is_found():
     (found,) = [found for _, found in seen if found.kind]
     assert (found.kind, found.parameters["b1"]) == ("LPC", pytest.approx(-0.25, abs=1e-8))
     assert len(curve) >= len(counts)
+
+
+@pytest.mark.slow
+def test_a_limit_on_time_keeps_the_orbits_reached():
+    def dawdling(count, special):
+        if count == 3:
+            time.sleep(1.0)
+
+    curve = mc.continue_response(linear(), "w", (0.5, 2.0), progress=dawdling, max_seconds=1.0, **QUICK)
+    assert curve.status == "max time"
+    assert "the limit of 1 s was reached" in dict(curve.ends)["max time"]
+    assert 1 <= len(curve) <= 4
 
 
 @pytest.mark.slow

@@ -147,6 +147,21 @@ class Cone:
         found = root(lambda x: self.spinning(x, self._carried(x))[1], near, tol=1e-13)
         return found.x
 
+    def folding(self, near):
+        """Return where rests fold as the speed w changes: w (rad/s), from x and w near by."""
+
+        def equations(z):
+            self.w, h = z[3], 1e-4
+            def rest(x):
+                return self.spinning(x, self._carried(x))[1]
+
+            steps = h * np.eye(3)
+            slopes = [(8.0 * (rest(z[:3] + e) - rest(z[:3] - e)) - rest(z[:3] + 2 * e) + rest(z[:3] - 2 * e)) / (12 * h)
+                      for e in steps]
+            return np.append(rest(z[:3]), np.linalg.det(np.array(slopes)) / self.w**4)
+
+        return float(root(equations, near, tol=1e-13).x[3])
+
     def exponents(self, x):
         """Return the six exponents of small motions about x, 1/s."""
         at, h, columns = np.concatenate([x, self._carried(x)]), 1e-5, []

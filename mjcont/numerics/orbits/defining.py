@@ -15,6 +15,7 @@ Kuznetsov, Computation of periodic solution bifurcations in ODEs using bordered 
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -29,6 +30,9 @@ from mjcont.numerics.orbits.collocation import Orbits
 # how far an orbit is moved for the derivative of a matrix, relative to its sizes
 _MOVED = 1e-4
 _UNFOLDED = 1e-6
+# imaginary parts of null vectors below this part of the real ones vanish with the sine of the angle
+_REAL = 0.1
+_TINY = 1e-100
 
 
 def orbits_of(local: Local) -> Orbits:
@@ -67,6 +71,15 @@ def _null_pair(matrix: Any) -> tuple[Array, Array]:
     return v, w
 
 
+def turned(local: Local, mu: complex, periods: bool = False) -> Any:
+    """Return K(mu) over scaled unknowns, with or without the period and its equation."""
+    orbits = orbits_of(local)
+    size, d = orbits.n if periods else orbits.ends + orbits.inside, orbits.flow.d
+    first, at = orbits.inside + orbits.intervals * d, np.arange(d)
+    change = sparse.csc_matrix(((1.0 - mu) * orbits.state_scale[:d], (first + at, at)), shape=(size, size))
+    return (local.jac[:size, :size] + change).tocsc()
+
+
 def _sizes(orbits: Orbits) -> Array:
     """Return the typical size of each unknown, (n,)."""
     inside = np.tile(orbits.sizes[: orbits.flow.c], orbits.intervals * orbits.m)
@@ -88,13 +101,7 @@ class Multiplier(Condition):
 
     def _matrix(self, local: Local, aux: Array) -> Any:
         """Return K over scaled unknowns: without the period and its equation, s_N = mu s_0 at the ends."""
-        orbits, matrix = orbits_of(local), local.jac
-        size = orbits.ends + orbits.inside
-        first, d = orbits.inside + orbits.intervals * orbits.flow.d, orbits.flow.d
-        mu = self._mu(aux)
-        at = np.arange(d)
-        change = sparse.csc_matrix(((1.0 - mu) * orbits.state_scale[:d], (first + at, at)), shape=(size, size))
-        return (matrix[:size, :size] + change).tocsc()
+        return turned(local, self._mu(aux))
 
     def _scaled(self, local: Local, aux: Array) -> Any:
         return sparse.csc_matrix(sparse.diags(self.rows) @ self._matrix(local, aux))
@@ -103,17 +110,27 @@ class Multiplier(Condition):
         """Return v (scaled unknowns), w (equations) and g."""
         key = np.asarray(aux).tobytes()
         if self._cache is None or self._cache[0] is not local or self._cache[1] != key:
-            lu = Factored(border(self._scaled(local, aux), self.b[:, None], self.c[None]))
-            rhs = np.zeros(len(self.b) + 1, dtype=self.b.dtype)
+            b, c = self._borders(aux)
+            lu = Factored(border(self._scaled(local, aux), b[:, None], c[None]))
+            rhs = np.zeros(len(b) + 1, dtype=b.dtype)
             rhs[-1] = 1.0
             right, left = lu.solve(rhs), lu.solve_transposed(rhs)
             self._cache = (local, key, right[:-1], left[:-1], right[-1])
         return self._cache[2], self._cache[3] * self.rows, self._cache[4]
 
+    def _borders(self, aux: Array) -> tuple[Array, Array]:
+        """Return the column and the row."""
+        del aux
+        return self.b, self.c
+
+    def _rows(self, local: Local, aux: Array, g: Any) -> Array:
+        """Return the real equations, (count, ...), of g or of its derivatives."""
+        del local, aux
+        return np.array([g])
+
     def value(self, local: Local, aux: Array) -> Array:
         """Return g, its real and imaginary part where it is complex."""
-        g = self.vectors(local, aux)[2]
-        return np.array([g.real, g.imag])[: self.count]
+        return self._rows(local, aux, self.vectors(local, aux)[2])
 
     def gradient(self, local: Local, system: System, y: Array) -> Array:
         """Return dg = -w' dK v over the unknowns, the free parameters, and theta where there is one."""
@@ -125,9 +142,8 @@ class Multiplier(Condition):
         parts = [np.concatenate([part, np.zeros(count)]) for part in (whole[0].real, whole[0].imag)]
         along_real = self._bend(local, system, y, whole[1], parts[0])
         along_imag = self._bend(local, system, y, whole[1], parts[1]) if np.iscomplexobj(v) else 0.0
-        found = -(along_real + 1j * along_imag)
-        rows = np.array([found.real, found.imag])[: self.count]
-        return np.hstack([rows, self._over_aux(local, v, w, aux)])
+        found = -(along_real + 1j * along_imag) if np.iscomplexobj(v) else -along_real.real
+        return self._rows(local, aux, np.append(found, self._over_aux(local, v, w, aux)))
 
     def _bend(self, local: Local, system: System, y: Array, w: Array, along: Array) -> Array:
         found: Array = bend(local, system, y, w, along)
@@ -135,7 +151,7 @@ class Multiplier(Condition):
 
     def _over_aux(self, local: Local, v: Array, w: Array, aux: Array) -> Array:
         del local, v, w, aux
-        return np.zeros((self.count, 0))
+        return np.zeros(0)
 
     def update(self, local: Local, aux: Array) -> None:
         """Take the present null vectors, normalised, as borders."""
@@ -162,22 +178,74 @@ class PeriodDoubling(Multiplier):
 
 
 class Torus(Multiplier):
-    """A pair of multipliers is exp(+-i theta); theta is its auxiliary unknown."""
+    """A pair of multipliers is mu, 1 / mu with mu = exp(i theta); theta is its auxiliary unknown.
+
+    At a strong resonance 1:1 or 1:2 the pair meets on the real axis in one real vector. Borders that are real but for
+    multiples of i sin theta make g(-theta) the conjugate of g(theta): Im g vanishes with sin theta, on the curve or
+    not, and Re g = Im g / sin theta = 0 are regular equations, of which the curve beyond is the mirror image. Small
+    imaginary parts are as accurate as in derivatives by complex steps. The multiplier 1 of a free period would make
+    K(1) singular as well: for angles below a right one the period and its equation are left in, which deflates it.
+    """
 
     count = 2
 
-    def __init__(self, local: Local, theta: float) -> None:
+    def __init__(self, local: Local, theta: float, deflates: bool = True) -> None:
+        self.deflates = deflates
+        self._prepare(local, theta)
+
+    def _prepare(self, local: Local, theta: float) -> None:
+        self.deflated = self._to_deflate(local, theta)
         super().__init__(local, (theta,))
+        self._mirrored(theta)
+
+    def _to_deflate(self, local: Local, theta: float) -> bool:
+        return self.deflates and orbits_of(local).own_period and math.cos(theta) > 0.0
+
+    def _mirrored(self, theta: float) -> None:
+        """Make the borders as real as they can be; note sin theta, zero where that is not nearly so."""
+        self.b, self.c = _nearly_real(self.b), _nearly_real(self.c)
+        real = all(np.linalg.norm(v.imag) <= _REAL * np.linalg.norm(v.real) for v in (self.b, self.c))
+        self.sine = _sine(theta) if real else 0.0
+
+    def _matrix(self, local: Local, aux: Array) -> Any:
+        return turned(local, self._mu(aux), self.deflated)
 
     def _mu(self, aux: Array) -> complex:
-        return complex(np.exp(1j * aux[0]))
+        return complex(math.cos(aux[0]), _sine(aux[0]))
+
+    def _borders(self, aux: Array) -> tuple[Array, Array]:
+        part = 1j * (_sine(aux[0]) / self.sine if self.sine else 1.0)
+        return self.b.real + part * self.b.imag, self.c.real + part * self.c.imag
+
+    def _rows(self, local: Local, aux: Array, g: Any) -> Array:
+        del local
+        return np.array([g.real, g.imag / (_sine(aux[0]) if self.sine else 1.0)])
 
     def _over_aux(self, local: Local, v: Array, w: Array, aux: Array) -> Array:
         orbits = orbits_of(local)
         first, d = orbits.inside + orbits.intervals * orbits.flow.d, orbits.flow.d
         ends = w[first : first + d] * orbits.state_scale[:d] * v[:d]
-        found = complex(1j * self._mu(aux) * ends.sum())  # dK = -i mu at the ends
-        return np.array([[found.real], [found.imag]])
+        return np.array([1j * self._mu(aux) * ends.sum()])  # dK = -i mu at the ends
+
+    def update(self, local: Local, aux: Array) -> None:
+        """Take the present null vectors as borders, as real as they can be."""
+        theta = float(aux[0])
+        if self._to_deflate(local, theta) is not self.deflated:
+            self._prepare(local, theta)
+        else:
+            super().update(local, aux)
+            self._mirrored(theta)
+
+
+def _sine(theta: float) -> float:
+    """Return sin theta, at 0 a tiny number: what is divided by it has a limit there."""
+    return math.sin(theta) or _TINY
+
+
+def _nearly_real(v: Array) -> Array:
+    """Return a complex vector turned, by less than a right angle, so that its imaginary part is least."""
+    found: Array = v * np.exp(-0.5j * np.angle((v * v).sum()))
+    return found
 
 
 class CycleBranch(Condition):

@@ -7,12 +7,12 @@ corrected again, and the next piece begins there in the same direction.
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mjcont.numerics.equations.clock import TimeUp
 from mjcont.numerics.equations.newton import Corrected, correct, solve
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused
@@ -21,26 +21,26 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.conserved import orbits_on
 from mjcont.numerics.orbits.flow import Flow
-from mjcont.numerics.orbits.linger import lingering, may_linger, shrunk_to
+from mjcont.numerics.orbits.linger import SMALL, deviation, lingering, may_linger, shrinks_slowly, shrunk_to
 from mjcont.numerics.orbits.mesh import count_for, equidistributed, error_of
 from mjcont.numerics.orbits.passing import cycle_detectors
 from mjcont.numerics.orbits.path import Path
 from mjcont.numerics.orbits.points import error_at, multipliers_at, orbits_at, path_at
 from mjcont.numerics.orbits.scheme import Scheme
-from mjcont.numerics.points.events import Detector, Located
+from mjcont.numerics.points.events import Detector, Located, approximate, point_at
 from mjcont.numerics.step.arclength import CurvePoint, point_from
 from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.onebyone import OneByOne
 from mjcont.numerics.walk.steps import End, Item, Leap, Neutral, Status
-from mjcont.numerics.walk.trace import Trace, Walker
+from mjcont.numerics.walk.trace import Trace, Walker, time_up
 
 # a new mesh is to have this part of the tolerance, so that it lasts
 _LASTS = 0.1
 _MOST_MESHES = 8
 # on the largest mesh intervals are moved as long as the error falls below this part of itself
 _BETTER = 0.5
-# an orbit smaller than this, relative to its sizes, or one that turned to its opposite, has shrunk to a point
-_SMALL, _OPPOSITE = 1e-5, -0.5
+# an orbit that turned to its opposite has shrunk to a point between
+_OPPOSITE = -0.5
 # places at which an orbit's periods are compared
 _COMPARED = 200
 # where they are this much alike, relative to sizes, a walk that stands still has arrived where they are one
@@ -51,6 +51,9 @@ _STALE = 0.8
 _ENOUGH = 3
 # where the multiplier 1 has this error and the period has grown so much, it grows without bound
 _BLURRED, _LONGER = 1e-5, 2.0
+_SLOW = "the orbit shrinks to a Bogdanov-Takens point (BT), where its period grows without bound"
+# scales are renewed where a free period has changed by this
+_OTHER_PERIOD = 2.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,7 +179,7 @@ class Follower:
 
     def follow(self, system: System, start: CurvePoint) -> Iterator[Item]:
         """Yield the points after `start`, special points in their places, and the end."""
-        began, count, h = time.monotonic(), 1, self.settings.ds
+        count, h = 1, self.settings.ds
         longest = self.meshes.period_max * _period(start)
         fresh = self._resolved(system, start)
         if isinstance(fresh, End):
@@ -190,7 +193,6 @@ class Follower:
             left = replace(
                 self.settings, ds=h, ds_min=min(self.settings.ds_min, h),
                 max_points=max(self.settings.max_points - count + 1, 2),
-                max_seconds=self.settings.max_seconds - (time.monotonic() - began),
             )
             first = point
             walker = Walker(
@@ -242,10 +244,15 @@ class Follower:
         if sentence:
             self._ending = End(Status.STOPPED, sentence)
         elif before is not None and _shrunk(before, p):
-            at_end = shrunk_to(orbits_at(p), path_at(p), p.local.values, self.held is not None)
+            small = _smallest(system, before, p, self.settings)
+            at_end = shrunk_to(orbits_at(small), path_at(small), small.local.values, self.held is not None)
             self._ending = End(Status.AT_REST, at_end)
         elif before is not None and self.periods > 1 and _merged(before, p, self.periods):
             self._ending = self._alike(system, p)
+        elif self.held is not None and orbits_at(p).own_period and shrinks_slowly(
+            orbits_at(p), path_at(p), p.local.values, longest / self.meshes.period_max
+        ):
+            self._ending = End(Status.AT_REST, _SLOW)
         elif orbits_at(p).own_period and (_period(p) > longest or _blurred(p, longest / self.meshes.period_max)):
             self._ending = End(Status.PERIOD, _without_bound(p))
         elif error_at(p) > self.meshes.tol and not self.meshes.fixed:
@@ -311,12 +318,7 @@ def _period(p: CurvePoint) -> float:
 
 
 def _deviation(p: CurvePoint) -> Array:
-    """Return the states at the mesh less their mean, relative to their sizes."""
-    orbits = orbits_at(p)
-    s = path_at(p).s
-    mean = orbits.lengths @ (0.5 * (s[1:] + s[:-1]))
-    found: Array = (s - mean - orbits.mesh[:, None] * orbits.shift) / orbits.sizes
-    return found
+    return deviation(orbits_at(p), path_at(p))
 
 
 def _shrunk(before: CurvePoint, after: CurvePoint) -> bool:
@@ -327,7 +329,14 @@ def _shrunk(before: CurvePoint, after: CurvePoint) -> bool:
     if a.shape != b.shape:
         return False
     sizes = float(np.linalg.norm(a) * np.linalg.norm(b))
-    return bool(np.abs(b).max() < _SMALL) or float((a * b).sum()) < _OPPOSITE * sizes
+    return bool(np.abs(b).max() < SMALL) or float((a * b).sum()) < _OPPOSITE * sizes
+
+
+def _smallest(system: System, before: CurvePoint, after: CurvePoint, settings: Settings) -> CurvePoint:
+    """Return the orbit where it shrinks to a point between two others, as nearly as it is found."""
+    a, b = (float(np.linalg.norm(_deviation(p))) for p in (before, after))
+    near = approximate(system, before, after, a / (a + b) if a + b > 0.0 else 0.5, settings)
+    return after if near.failure is not None else point_at(system, before, after, near, after.s)
 
 
 def _apart(p: CurvePoint, periods: int) -> Array:
@@ -341,14 +350,16 @@ def _merged(before: CurvePoint, after: CurvePoint, periods: int) -> bool:
     """Whether what tells an orbit's periods apart vanished: it comes out opposite to what it went in."""
     a, b = _apart(before, periods), _apart(after, periods)
     sizes = float(np.linalg.norm(a) * np.linalg.norm(b))
-    return bool(np.abs(b).max() < _SMALL) or float((a * b).sum()) < _OPPOSITE * sizes
+    return bool(np.abs(b).max() < SMALL) or float((a * b).sum()) < _OPPOSITE * sizes
 
 
 def _stale(p: CurvePoint) -> bool:
-    """Whether the reference of the phase condition no longer tells the phase."""
+    """Whether the reference of the phase condition no longer tells the phase, or the period has become another."""
     orbits = orbits_at(p)
     if not orbits.own_period:
         return False
+    if not 1.0 / _OTHER_PERIOD <= _period(p) / orbits.period_scale <= _OTHER_PERIOD:
+        return True
     slopes = path_at(p).slopes(orbits.mesh[:-1]) / orbits.sizes
     reference = orbits.reference[:-1] / orbits.sizes
     size = float(np.linalg.norm(slopes) * np.linalg.norm(reference))
@@ -375,6 +386,8 @@ def trace_orbits(
                 result.points.append(item)
             if progress is not None:
                 progress(item)
+    except TimeUp:
+        result.end = time_up(follower.settings)
     except KeyboardInterrupt:
         result.end = End(Status.INTERRUPTED, f"stopped by the user after {len(result.points)} points")
     return result

@@ -19,13 +19,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
 from mjcont.numerics.equations.bordered import Factored
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import Condition, Local
 from mjcont.numerics.orbits.collocation import Orbits
-from mjcont.numerics.orbits.defining import CycleFold, PeriodDoubling, Torus, orbits_of
+from mjcont.numerics.orbits.defining import CycleFold, PeriodDoubling, Torus, orbits_of, turned
 from mjcont.numerics.step.arclength import CurvePoint
 
 # how far an orbit is moved for second and third derivatives, relative to its sizes: of fourth order
@@ -85,12 +84,12 @@ def cubic_of_torus(point: CurvePoint, theta: float) -> float:
     """Return the real part of the cubic coefficient of an NS with the angle theta, up to a positive factor."""
     local = _accurate(point)
     orbits = orbits_of(local)
-    short, left, _ = Torus(local, theta).vectors(local, np.array([theta]))
+    short, left, _ = Torus(local, theta, deflates=False).vectors(local, np.array([theta]))
     v, w = _whole(orbits, short), _whole(orbits, left)
     real, imag = _Bends(local, v.real), _Bends(local, v.imag)
     first = real.first + 1j * imag.first  # D2[v, .]
     h = Factored(local.jac).solve(-(first @ np.conj(v)).real)
-    g = Factored(_turned(local, orbits, np.exp(2j * theta))).solve(-0.5 * (first @ v)[: len(short)])
+    g = Factored(turned(local, np.exp(2j * theta))).solve(-0.5 * (first @ v)[: len(short)])
     along = 0.5 * ((real.second + imag.second) @ v) + first @ h + np.conj(first) @ _whole(orbits, g)
     return float((w @ along * _side(orbits, v, w, np.exp(1j * theta))).real)
 
@@ -105,11 +104,3 @@ def _side(orbits: Orbits, v: Array, w: Array, mu: complex) -> complex:
     first, d = orbits.inside + orbits.intervals * orbits.flow.d, orbits.flow.d
     moved = complex(-mu * (w[first : first + d] @ (orbits.state_scale[:d] * v[:d])))
     return complex(np.conj(moved) / abs(moved) ** 2) if moved else complex(np.nan)
-
-
-def _turned(local: Local, orbits: Orbits, mu: complex) -> Any:
-    """Return K(mu) over scaled unknowns, without the period and its equation."""
-    size, d = orbits.ends + orbits.inside, orbits.flow.d
-    first, at = orbits.inside + orbits.intervals * d, np.arange(d)
-    change = sparse.csc_matrix(((1.0 - mu) * orbits.state_scale[:d], (first + at, at)), shape=(size, size))
-    return (local.jac[:size, :size] + change).tocsc()

@@ -26,13 +26,16 @@ from mjcont.numerics.equations.system import Condition, Local, System
 from mjcont.numerics.orbits.collocation import Orbits
 from mjcont.numerics.orbits.defining import CycleFold, PeriodDoubling, Torus
 from mjcont.numerics.orbits.forms import cubic_of_doubling, cubic_of_torus, square_of_fold
-from mjcont.numerics.orbits.points import multipliers_at
+from mjcont.numerics.orbits.linger import is_rest
+from mjcont.numerics.orbits.points import multipliers_at, orbits_at, path_at
 from mjcont.numerics.points.events import Detector, Found, Located, approximate, point_at, within
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.step.notes import Note
 
 # what remains of a test at a zero, in parts of its values at the ends of the step
 _VANISHES = 1e-3
+# a test that grows by this between the ends of the step has a pole there
+_POLE = 10.0
 _CLOSE = 1e-11
 Test = Callable[[CurvePoint], float]
 
@@ -62,6 +65,7 @@ class Meeting:
         """Return the zero between the points."""
         seen: dict[float, tuple[float, Corrected]] = {}
         ends = {0.0: self.value(old), 1.0: self.value(new)}
+        largest = max(abs(v) for v in ends.values())
 
         def at(fraction: float) -> float:
             if fraction in ends:
@@ -69,17 +73,22 @@ class Meeting:
             near = approximate(self.system, old, new, fraction, self.settings)
             if near.failure is not None:
                 raise ValueError(near.failure.message)
-            seen[fraction] = (self.test(point_at(self.system, old, new, near, old.s)), near)
-            return seen[fraction][0]
+            value = self.test(point_at(self.system, old, new, near, old.s))
+            if not abs(value) <= _POLE * largest:  # it changes sign where it grows beyond bounds
+                raise ValueError
+            seen[fraction] = (value, near)
+            return value
 
         if math.isnan(root(at, 0.0, 1.0, _CLOSE)) or not seen:
             return Found()
         rest, near = min(seen.values(), key=lambda pair: abs(pair[0]))
         s = within(self.system, old, new, near)
-        if s is None or not abs(rest) <= _VANISHES * max(abs(v) for v in ends.values()):
+        if s is None or not abs(rest) <= _VANISHES * largest:
             return Found()
         point = point_at(self.system, old, new, near, s)
-        return Found([Located(self.kind, point, near.step)]) if self.counts(point) else Found()
+        if is_rest(orbits_at(point), path_at(point)) or not self.counts(point):
+            return Found()
+        return Found([Located(self.kind, point, near.step)])
 
 
 def held(kind: str, point: CurvePoint) -> Array:
