@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from problems.explorer import exploring, until
+from problems.explorer import exploring, page, until
 
 import mjcont as mc
 from mjcont.studies.study import load_study, run_study
@@ -28,7 +28,7 @@ IDLE = "return !e.live.busy && document.querySelector('button.stop').hidden;"
 def address(tmp_path_factory):
     study = tmp_path_factory.mktemp("live") / "study.toml"
     study.write_text(STUDY, encoding="utf-8")
-    with exploring(study) as (_, found):
+    with exploring(study) as (_, found), page(found):  # which keeps the session for the tests between
         yield found
 
 
@@ -210,10 +210,10 @@ def test_the_page_that_is_handed_out_needs_no_session(live, opened, tmp_path):
     with live.page.expect_download() as download:
         live.page.get_by_role("button", name="page.html").click()
     download.value.save_as(tmp_path / "page.html")
-    page = opened(tmp_path / "page.html")
-    assert page.requests == [(tmp_path / "page.html").as_uri()]
-    assert page.console == []
-    assert {c["id"] for c in page(CURVES)} == {"rest", "sensitivities_1"}
+    alone = opened(tmp_path / "page.html")
+    assert alone.requests == [(tmp_path / "page.html").as_uri()]
+    assert alone.console == []
+    assert {c["id"] for c in alone(CURVES)} == {"rest", "sensitivities_1"}
 
 
 def test_a_live_page_asks_for_nothing_but_itself_and_logs_nothing(live):
@@ -226,22 +226,22 @@ def test_a_live_page_asks_for_nothing_but_itself_and_logs_nothing(live):
 
 def test_without_the_token_the_page_shows_nothing_of_the_model(address, chromium):
     context = chromium.new_context()
-    page = context.new_page()
-    page.goto(address.partition("#")[0])
-    until(lambda: "lacks its token" in page.inner_text("body"))
-    assert "overcentre" not in page.content().partition("<script type=\"module\">")[0]
-    page.goto(address[:-3] + "xyz")
-    page.reload()
-    until(lambda: "open the one that mjcont printed" in page.inner_text("body"))
+    tab = context.new_page()
+    tab.goto(address.partition("#")[0])
+    until(lambda: "lacks its token" in tab.inner_text("body"))
+    assert "overcentre" not in tab.content().partition('<script type="module">')[0]
+    tab.goto(address[:-3] + "xyz")
+    tab.reload()
+    until(lambda: "open the one that mjcont printed" in tab.inner_text("body"))
     context.close()
 
 
 def test_a_page_from_elsewhere_gets_no_socket_though_it_knows_the_token(address, chromium):
     host, _, token = address.partition("/#")
     context = chromium.new_context()
-    page = context.new_page()
-    page.goto("data:text/html,elsewhere")
-    said = page.evaluate("""([url, protocols]) => new Promise((done) => {
+    tab = context.new_page()
+    tab.goto("data:text/html,elsewhere")
+    said = tab.evaluate("""([url, protocols]) => new Promise((done) => {
         const socket = new WebSocket(url, protocols);
         socket.onopen = () => done("open");
         socket.onclose = () => done("refused");

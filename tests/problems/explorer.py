@@ -102,5 +102,6 @@ def page(address: str) -> Iterator[Page]:
     host, _, token = address.partition("/#")
     url = host.replace("http:", "ws:") + "/socket"
     protocols: Any = ["mjcont", f"token.{token}"]
-    with connect(url, subprotocols=protocols, origin=host, max_size=None, proxy=None) as talk:  # type: ignore[arg-type]
+    origin: Any = host
+    with connect(url, subprotocols=protocols, origin=origin, max_size=None, max_queue=None, proxy=None) as talk:
         yield Page(talk)
