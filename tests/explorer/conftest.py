@@ -61,6 +61,7 @@ def opened(chromium):
         tab.page.on("request", lambda r: tab.requests.append(r.url))
         tab.page.goto(place.as_uri() if isinstance(place, Path) else place)
         tab.page.wait_for_selector("[data-panel=diagram] .plot .line", state="attached")
+        tab.page.wait_for_selector("[data-panel=mechanism][hidden], [data-drawn]", state="attached")
         tab.settle()
         return tab
 
