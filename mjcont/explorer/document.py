@@ -9,6 +9,7 @@
     quantities  by name: label (parts with what stands below and behind), unit and scale as shown, role
     study       TOML that reproduces it; may be empty
     sliders     the model's own parameters, their values and ranges
+    keyframes   names of the model's poses
     curves      see `curves`; each `parent` is the `id` of another
 
 Arrays are `{"dtype", "shape", "data"}` (see `arrays`), in SI and radians.
@@ -88,6 +89,7 @@ def assembled(
         "quantities": quantities_of(curves),
         "study": study,
         "sliders": sliders_of(stage.problem, curves, values),
+        "keyframes": [] if stage.problem is None else [*stage.problem.keyframes],
         "curves": list(curves),
     }
 

@@ -11,6 +11,7 @@ from typing import Any
 from mjcont.errors import MjcontError, ResultFileError, StudyError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.loading import shipped_models
+from mjcont.numerics.equations import clock
 from mjcont.results.branch import Branch
 from mjcont.results.files import RESULT_SUFFIXES
 from mjcont.results.formats import load
@@ -20,6 +21,8 @@ from mjcont.studies.plans import check_study, located, parse
 from mjcont.studies.schema import toml_text
 
 EQUILIBRIA = "equilibria"
+# s after which whoever opened a model would rather choose what to vary
+_SOON = 15.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,10 +118,11 @@ def _again(branch: Branch, mechanism: Mechanism) -> dict[str, Any]:
 
 
 def first_table(mechanism: Mechanism) -> dict[str, Any] | None:
-    """Return the table of a first branch of a model, None if nothing moves it."""
+    """Return the table of a first branch of a model, None if nothing that moves it is found soon."""
     try:
-        look = first_look(mechanism)
-    except MjcontError:
+        with clock.limited(_SOON):
+            look = first_look(mechanism)
+    except (MjcontError, clock.TimeUp):
         return None
     low, high = look.bounds
     value = look.parameter.value

@@ -51,7 +51,8 @@ def opened(chromium):
     """Return a function that opens a file or an address in a tab of its own."""
     contexts = []
 
-    def open_in(place, width=1440, height=900, dark=False, browser=chromium):
+    def open_in(place, width=1440, height=900, dark=False, browser=chromium,
+                drawn="[data-panel=diagram] .plot .line"):
         context = browser.new_context(viewport={"width": width, "height": height}, device_scale_factor=1,
                                       color_scheme="dark" if dark else "light", accept_downloads=True)
         contexts.append(context)
@@ -60,7 +61,7 @@ def opened(chromium):
         tab.page.on("pageerror", lambda error: tab.console.append(f"error: {error}"))
         tab.page.on("request", lambda r: tab.requests.append(r.url))
         tab.page.goto(place.as_uri() if isinstance(place, Path) else place)
-        tab.page.wait_for_selector("[data-panel=diagram] .plot .line", state="attached")
+        tab.page.wait_for_selector(drawn, state="attached")
         tab.page.wait_for_selector("[data-panel=mechanism][hidden], [data-drawn]", state="attached")
         tab.settle()
         return tab

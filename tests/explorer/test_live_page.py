@@ -115,6 +115,25 @@ def test_a_bar_of_the_tornado_follows_its_parameter(live):
     assert live("return Object.keys(e.store.curves[2].free);") == ["F", "k_sp"]
 
 
+def test_a_branch_begins_at_a_pose_of_the_model(live):
+    click(live, "begin", parameter="F")
+    assert curves(live).keys() == {"rest", "equilibria"}
+    assert [s["label"] for s in curves(live)["equilibria"]["specials"]] == ["LP1", "LP2"]
+
+
+def test_a_model_that_nothing_moves_is_shown_and_says_so(opened, tmp_path):
+    (tmp_path / "still.xml").write_text("""<mujoco model="still"><worldbody><body><joint name="z" type="slide"
+        axis="0 0 1" stiffness="10"/><geom size="0.1"/></body></worldbody>
+        <actuator><general name="idle" joint="z" gainprm="0" ctrllimited="true" ctrlrange="-1 2"/></actuator>
+        <option gravity="0 0 0"/></mujoco>""", encoding="utf-8")
+    with exploring(tmp_path / "still.xml") as (_, address):
+        tab = opened(address, drawn="[data-panel=mechanism]")
+        until(lambda: "choose a parameter" in words(tab))
+        click(tab, "begin", parameter="idle")
+        assert curves(tab).keys() == {"equilibria"}
+        assert tab.console == []
+
+
 def test_no_load_runs_from_an_unstable_row(live):
     unstable_row(live)
     button = live.page.locator("[data-action=path]")

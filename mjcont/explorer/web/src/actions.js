@@ -26,7 +26,8 @@ export function others(document, curve) {
  * `fields` are {name, label, kind: "choice" | "number", value, options, unit}; `why` says why it cannot be done now.
  */
 export function actionsFor(document, curve, row, special) {
-  if (!curve || !["branch", "locus", "loadpath", "orbits"].includes(curve.kind)) return [];
+  if (!curve) return [ofModel(document)];
+  if (!["branch", "locus", "loadpath", "orbits"].includes(curve.kind)) return [];
   const found = [],
     choices = others(document, curve),
     point = special ? `${curve.id}:${special.label}` : "";
@@ -41,7 +42,24 @@ export function actionsFor(document, curve, row, special) {
       fields: [],
       args: () => ({ branch: curve.id }),
     });
+  if (curve.kind === "branch") found.push(ofModel(document));
   return found;
+}
+
+/** Return how a branch begins that begins at no other: at a pose of the model. */
+function ofModel(document) {
+  const names = document.sliders.map((p) => [p.name, p.name]),
+    poses = [["", "the model's own"], ...(document.keyframes ?? []).map((n) => [n, n])];
+  return {
+    id: "begin",
+    label: "Follow the rest near a pose",
+    table: "branch",
+    fields: [
+      { ...second(names), label: "parameter" },
+      { name: "keyframe", label: "pose", kind: "choice", value: "", options: poses },
+    ],
+    args: ({ parameter, keyframe }) => ({ parameter, keyframe: keyframe || null }),
+  };
 }
 
 function second(choices) {
@@ -92,7 +110,7 @@ function ofRow(curve, row, special, choices) {
   const unstable = curve.stability?.[row] === UNSTABLE,
     found = [];
   if (free.length) {
-    const why = unstable && !special ? "Nothing rests at an unstable row." : "";
+    const why = unstable && special?.kind !== "LP" ? "Nothing rests at an unstable row." : "";
     found.push({
       id: "path",
       label: "Let the load run from here",
