@@ -66,6 +66,14 @@ def test_angles_are_shown_in_degrees_and_large_forces_in_kilonewtons():
     assert shown["F_ret"]["label"] == [["F", "ret", ""]]
 
 
+def test_sliders_hold_what_the_branch_holds_in_units_that_read_well(document, branch):
+    found = {s["name"]: s for s in document["sliders"]}
+    stiffness = found["k_j"]
+    assert (stiffness["value"], stiffness["shown"]["unit"]) == (branch.fixed["k_j"], "N/m")
+    assert found["F"]["free"] and not stiffness["free"]
+    assert all(s["lower"] < s["upper"] for s in found.values())
+
+
 def test_a_plain_vector_field_has_no_scene_and_no_poses():
     document = document_of({"b": branch_of_cusp()})
     assert document["scene"] is None
