@@ -3,6 +3,8 @@
 import json
 import subprocess
 import sys
+import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -96,6 +98,18 @@ def test_a_jump_of_a_load_path_is_rows_between_the_rest_lost_and_the_one_reached
     assert np.array_equal(kept(curve, "height")[own >= 0], path["height"])
     heights = kept(curve, "height")[moving[0] - 1 : moving[-1] + 2]
     assert heights[0] < -0.6 and heights[-1] > 0.9
+
+
+def test_orbits_travel_with_their_motion_also_where_a_force_drives_them():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", mc.ResultWarning)  # an old file, without checksums
+        response = mc.load(Path(__file__).parent.parent / "results" / "written" / "orbits" / "filtered_response.h5")
+    (curve,) = document_of({"response": response})["curves"]
+    motion, height = curve["orbit"], next(iter(response.orbits[0].reading.names))
+    assert curve["kind"] == "orbits" and curve["poses"]["shape"][0] == len(response)
+    rows = unpacked(motion["rows"])
+    assert unpacked(motion["period"]) == pytest.approx(response["period"][rows])
+    assert unpacked(motion["columns"][height]).max(axis=1) == pytest.approx(response[f"{height}.max"][rows], rel=1e-2)
 
 
 def test_a_history_is_drawn_over_time_with_a_pose_a_sample(branch):
