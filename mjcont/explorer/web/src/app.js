@@ -69,10 +69,7 @@ function follow(mechanism, store, panel) {
     return curve?.orbit?.poses ? poseOfOrbit(curve, row, sample) : poseOf(curve, row);
   };
   const frameAll = () => {
-    const poses = [];
-    for (const curve of store.curves.filter((c) => c.poses))
-      for (let k = 0, n = Math.min(FRAMED, curve.rows); k < n; k++)
-        poses.push(poseOf(curve, Math.round((k * (curve.rows - 1)) / Math.max(n - 1, 1))));
+    const poses = store.curves.flatMap(posesOf);
     mechanism.frame(poses.length ? poses : [mechanism.scene.pose]);
   };
   const here = () => mechanism.pose(pose());
@@ -92,6 +89,19 @@ function follow(mechanism, store, panel) {
     ),
   );
   withPicture(panel, () => mechanism.picture());
+}
+
+/** Return some poses of a curve, evenly: of its rows, or of the motions of its orbits. */
+function posesOf(curve) {
+  if (!curve.poses) return [];
+  const even = (count, most) =>
+    Array.from({ length: Math.min(most, count) }, (_, k, n = Math.min(most, count)) =>
+      Math.round((k * (count - 1)) / Math.max(n - 1, 1)),
+    );
+  const rows = even(curve.rows, FRAMED);
+  if (!curve.orbit?.poses) return rows.map((row) => poseOf(curve, row));
+  const samples = even(curve.orbit.poses.shape[1], 12);
+  return rows.slice(-6).flatMap((row) => samples.map((sample) => poseOfOrbit(curve, row, sample)));
 }
 
 function buttons(host, store) {
