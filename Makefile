@@ -75,7 +75,7 @@ explorer-bundle: ## build the explorer's script and style sheet from its sources
 	cd $(WEB) && npm ci --silent && npm run --silent build
 
 test-explorer: env ## the explorer in a headless browser (Debian's package chromium), and its processes
-	$(BIN)/pytest -q -m browser
+	$(BIN)/pytest -q -m browser tests/explorer
 
 explorer-check: ## whether the script and the style sheet in the package are what their sources build to
 	cd $(WEB) && npm ci --silent && npm run --silent check

@@ -170,7 +170,7 @@ def sliders_of(
         if p.kind == "switch" or not (math.isfinite(low) and math.isfinite(high) and low < high):
             continue
         value = (values or fixed).get(p.name, p.value)
-        entry = quantity(p.name, p.unit, "parameter", max(abs(low), abs(high)) if p.unit != "rad" else 0.0)
+        entry = quantity(p.name, p.unit, "parameter", abs(value))
         found.append({"name": p.name, "unit": p.unit, "value": value, "lower": low, "upper": high,
                       "shown": entry, "free": p.name in free})
     return found

@@ -47,7 +47,8 @@ def explore(source: Mechanism | Result | str | Path, file: str | Path | None = N
                           "result, whose file carries them")
     folder = tempfile.TemporaryDirectory(prefix="mjcont-") if file is None else None
     if folder is not None:
-        file = Path(folder.name) / ("model.xml" if isinstance(source, Mechanism) else "result.h5")
+        stem = "equilibria" if getattr(source, "kind", "") == "equilibria" else "result"
+        file = Path(folder.name) / ("model.xml" if isinstance(source, Mechanism) else f"{stem}.h5")
     path = checked_path(file or "")
     if isinstance(source, Mechanism):
         write_file(path, problem.mjcf)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import tomllib
+import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +16,11 @@ from mjcont.numerics.equations import clock
 from mjcont.results.branch import Branch
 from mjcont.results.files import RESULT_SUFFIXES
 from mjcont.results.formats import load
-from mjcont.results.orbits import CycleBranch
 from mjcont.studies.first import first_look
+from mjcont.studies.forms import FILE_STEM
 from mjcont.studies.plans import check_study, located, parse
 from mjcont.studies.schema import toml_text
 
-EQUILIBRIA = "equilibria"
 # s after which whoever opened a model would rather choose what to vary
 _SOON = 15.0
 
@@ -35,12 +35,14 @@ class Opened:
     results : by name, those that need not be computed any more.
     mechanism : the model, None where the tables are to be read for it.
     computes : whether there is something to compute before the first click.
+    notes : sentences, on files of the model that are not there, say.
     """
 
     tables: Mapping[str, Any]
     results: Mapping[str, Any] = field(default_factory=dict)
     mechanism: Mechanism | None = None
     computes: bool = True
+    notes: tuple[str, ...] = ()
 
 
 def opened(source: str) -> Opened:
@@ -51,7 +53,13 @@ def opened(source: str) -> Opened:
     MjcontError
         If it cannot be read, or has no model.
     """
-    path = Path(source)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", UserWarning)
+        found = _opened(Path(source), source)
+    return replace(found, notes=tuple(dict.fromkeys(str(w.message) for w in caught)))
+
+
+def _opened(path: Path, source: str) -> Opened:
     if path.suffix.lower() == ".toml":
         return _of_study(path)
     if path.suffix.lower() in RESULT_SUFFIXES:
@@ -84,9 +92,9 @@ def _of_result(path: Path) -> Opened:
     if not isinstance(mechanism, Mechanism):
         raise ResultFileError(f"'{path}' carries no model of a mechanism: the explorer needs one")
     tables: dict[str, Any] = {"model": str(path.resolve())}
-    if not isinstance(result, Branch) or isinstance(result, CycleBranch) or result.kind != "equilibria":
-        return Opened(tables, {"result": result}, mechanism, computes=False)
-    return Opened({**tables, **_again(result, mechanism)}, {EQUILIBRIA: result}, mechanism, computes=False)
+    if isinstance(result, Branch) and result.kind == "equilibria":
+        tables |= _again(path, result, mechanism)
+    return Opened(tables, {_called(path): result}, mechanism, computes=False)
 
 
 def study_of(path: Path, result: Any) -> str:
@@ -97,10 +105,15 @@ def study_of(path: Path, result: Any) -> str:
     mechanism = getattr(result, "problem", None)
     if not isinstance(mechanism, Mechanism) or not isinstance(result, Branch) or result.kind != "equilibria":
         return ""
-    return toml_text({"model": path.name, **_again(result, mechanism)})
+    return toml_text({"model": path.name, **_again(path, result, mechanism)})
 
 
-def _again(branch: Branch, mechanism: Mechanism) -> dict[str, Any]:
+def _called(path: Path) -> str:
+    """Return what the result in a file is called: as the file, unless a study's may not be called so."""
+    return path.stem if FILE_STEM.fullmatch(path.stem) else "result"
+
+
+def _again(path: Path, branch: Branch, mechanism: Mechanism) -> dict[str, Any]:
     """Return the tables that compute a branch again, from its own start."""
     usual = mechanism.values()
     fixed = {n: float(v) for n, v in branch.fixed.items() if n not in usual or usual[n] != v}
@@ -109,7 +122,7 @@ def _again(branch: Branch, mechanism: Mechanism) -> dict[str, Any]:
     ways = {0: 1, len(branch) - 1: -1}
     one_way = {"direction": ways[start]} if len(branch.ends) == 1 and start in ways else {}
     table = {
-        "name": EQUILIBRIA, "parameter": name, "bounds": [float(b) for b in bounds],
+        "name": _called(path), "parameter": name, "bounds": [float(b) for b in bounds],
         "start": {name: float(branch[name][start])}, "state": [float(x) for x in branch.states[start]], **one_way,
     }
     if branch.settings:

@@ -78,7 +78,7 @@ class Scene:
     def poses(self, states: Array, values: Sequence[Mapping[str, float]], varying: Sequence[str]) -> Poses:
         """Return where everything is in states (N, nq) with their parameter values, of which some vary."""
         every = self.mechanism.parameters
-        still = all(n in every and every[n].kind in _LOADS for n in varying)
+        still = all(n in every and every[n].kind in _LOADS for n in varying if self._acts(n))
         bodies, shapes, tendons = [], [], []
         for i, state in enumerate(states):
             if i == 0 or not still:
@@ -95,8 +95,13 @@ class Scene:
         self._write(values)
         self._move(state)
 
+    def _acts(self, name: str) -> bool:
+        """Whether a name is a parameter of the model, or a path of one, and not of a forcing."""
+        return name in self.mechanism.parameters or ":" in name
+
     def _write(self, values: Mapping[str, float]) -> None:
-        self._writer.write(self.mechanism.parameters, self.mechanism.values(values))
+        own = {n: v for n, v in values.items() if self._acts(n)}
+        self._writer.write(self.mechanism.parameters, self.mechanism.values(own))
         self._writer.inputs.begin(self._data)
 
     def _move(self, state: Array) -> None:

@@ -110,6 +110,8 @@ class Server:
         given = request.headers.get_all
         if len(given("Host")) != 1 or given("Host")[0] not in self._names:
             return _refused(HTTPStatus.MISDIRECTED_REQUEST, "this host is not served here")
+        if getattr(request, "method", "GET") != "GET":  # older versions of websockets refuse others themselves
+            return _refused(HTTPStatus.METHOD_NOT_ALLOWED, "there is nothing but to get")
         if request.path == "/":
             sockets = [f"ws://{name}" for name in sorted(self._names)]
             return _response(HTTPStatus.OK, page(None, sockets), "text/html",

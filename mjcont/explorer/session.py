@@ -79,14 +79,18 @@ class Session:
         self._warned: set[str] = set()
         self._opened: Opened | None = opened
         self.running = ""
-        self.mechanism, common = self._begun_with(opened)
-        self.now = Moment(dict(opened.tables), common, dict(opened.results))
+        with self._heeding() as notes:
+            self.mechanism, common = self._begun_with(opened)
+        results = dict(opened.results)
+        said = dict.fromkeys((*self.mechanism.notes, *opened.notes, *notes))
+        self.now = Moment(dict(opened.tables), common, results, notes=tuple(said))
+        self._given = {n: r for n, r in results.items() if n not in self._names()}
 
     def _begun_with(self, opened: Opened) -> tuple[Mechanism, dict[str, float]]:
         """Return the model, and the values for all results."""
         if opened.mechanism is not None:
             return opened.mechanism, dict(opened.tables.get("parameters", {}))
-        study, _ = self._checked(opened.tables)
+        study = self._checked(opened.tables)
         return study.mechanism, dict(study.common)
 
     # -- clicks ------------------------------------------------------------------------------------------------
@@ -102,6 +106,7 @@ class Session:
         if opened is None:
             return
         self.stop.clear()
+        said = self.now.notes
         if not opened.computes:
             pass
         elif opened.mechanism is None:
@@ -115,6 +120,7 @@ class Session:
             else:
                 computed(self.add("branch", table))
                 self._past.clear()
+        self.now = replace(self.now, notes=tuple(dict.fromkeys((*said, *self.now.notes))))
         self.tell_state()
 
     def add(self, table: str, args: Mapping[str, Any]) -> Results:
@@ -133,17 +139,17 @@ class Session:
         self.stop.clear()
         made = {"name": self._free_name(table), **table_of(table, args, now.results, self.mechanism, now.common)}
         tables = {**now.tables, table: [*now.tables.get(table, []), made]}
-        study, notes = self._checked(tables)
-        plan = next(p for p in study.plans if p.name == made["name"])
-        with self._busy(plan.name):
+        with self._heeding() as notes, self._busy(made["name"]):
+            study = self._checked(tables)
+            plan = next(p for p in study.plans if p.name == made["name"])
             result = run_plan(study, plan, now.results, self._hearing())
         found = named(plan, result)
         if interrupted(result):
-            notes = (*notes, f"{plan.name} was stopped: its points so far are kept, and the study computes it whole")
+            notes.append(f"{plan.name} was stopped: its points so far are kept, and the study computes it whole")
         parent = _parent(made, args)
         parents = {**now.parents, **({n: parent for n in found} if parent else {})}
         self._past.append(now)
-        self.now = Moment(tables, now.common, {**now.results, **found}, parents, plan.name, notes)
+        self.now = Moment(tables, now.common, {**now.results, **found}, parents, plan.name, tuple(notes))
         self.tell_state()
         return curves(found)
 
@@ -160,6 +166,8 @@ class Session:
         low, high = check_bounds(self.mechanism, name, None)
         if not low <= value <= high:
             raise BoundsError(f"{name} = {value} lies outside its range {low:g} .. {high:g}")
+        if not self._names():
+            raise MjcontError("there is nothing to compute anew: follow a branch first")
         self.stop.clear()
         before, click = self.now, f"{name} = {value:g}"
         tables = {**before.tables, "parameters": {**before.tables.get("parameters", {}), name: float(value)}}
@@ -208,34 +216,42 @@ class Session:
         numbers = (f"{stem}_{i}" for i in range(2 if table == "branch" else 1, len(taken) + 3))
         return next(n for n in ([stem] if table == "branch" else []) + [*numbers] if n not in taken)
 
-    def _checked(self, tables: Mapping[str, Any]) -> tuple[Study, tuple[str, ...]]:
-        """Return tables as a checked study, and what it warns of that was not said before."""
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always", UserWarning)
-            study, problems = check_data(tables, FILE)
+    def _checked(self, tables: Mapping[str, Any]) -> Study:
+        """Return tables as a checked study."""
+        study, problems = check_data(tables, FILE)
         if study is None:
             raise StudyError(_plain(problems[0]))
-        new = [w for w in dict.fromkeys(str(w.message) for w in caught) if w not in self._warned]
-        self._warned.update(new)
-        return study, tuple(new)
+        return study
+
+    @contextmanager
+    def _heeding(self) -> Iterator[list[str]]:
+        """Collect what is warned of inside, but what was said before."""
+        notes: list[str] = []
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", UserWarning)
+            yield notes
+        notes += [w for w in dict.fromkeys(str(w.message) for w in caught) if w not in self._warned]
+        self._warned.update(notes)
 
     def _recomputed(self, moment: Moment, computed: Callable[[Results], None] | None = None) -> Moment:
         """Return a moment with its tables' results computed; what cannot be computed is left out, with a note.
 
         Without `computed` a stop is an error; with it, it keeps what there is.
         """
-        study, notes = self._checked(moment.tables)
-        done: Results = {}
+        with self._heeding() as notes:
+            study = self._checked(moment.tables)
+        done: Results = dict(self._given)
         lost: dict[str, str] = {}
         for plan in study.plans:
             try:
-                with self._busy(plan.name):
+                with self._heeding() as more, self._busy(plan.name):
                     result = run_plan(study, plan, done, self._hearing())
             except MjcontError as error:
                 if self.stop.is_set():
                     raise
                 lost[plan.name] = str(error)
                 continue
+            notes += more
             found = named(plan, result)
             done |= found
             if computed is not None:

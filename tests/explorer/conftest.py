@@ -62,6 +62,7 @@ def opened(chromium):
         tab.page.on("request", lambda r: tab.requests.append(r.url))
         tab.page.goto(place.as_uri() if isinstance(place, Path) else place)
         tab.page.wait_for_selector(drawn, state="attached")
+        tab.page.wait_for_selector("[data-panel=mechanism][hidden], [data-drawn]", state="attached")
         tab.settle()
         return tab
 

@@ -3,15 +3,18 @@
 import json
 import subprocess
 import sys
+import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
-from problems.fields import branch_of_cusp, diagram_of_pp2
+from problems.fields import branch_of_cusp
 
 import mjcont as mc
 from mjcont.explorer.arrays import packed, plain, unpacked
 from mjcont.explorer.curves import JUMPING
 from mjcont.explorer.document import FORMAT, VERSION, document_of
+from mjcont.results.branch import Diagram
 
 
 @pytest.fixture(scope="module")
@@ -65,6 +68,14 @@ def test_angles_are_shown_in_degrees_and_large_forces_in_kilonewtons():
     assert shown["F_ret"]["label"] == [["F", "ret", ""]]
 
 
+def test_sliders_hold_what_the_branch_holds_in_units_that_read_well(document, branch):
+    found = {s["name"]: s for s in document["sliders"]}
+    stiffness = found["k_j"]
+    assert (stiffness["value"], stiffness["shown"]["unit"]) == (branch.fixed["k_j"], "N/m")
+    assert found["F"]["free"] and not stiffness["free"]
+    assert all(s["lower"] < s["upper"] for s in found.values())
+
+
 def test_a_plain_vector_field_has_no_scene_and_no_poses():
     document = document_of({"b": branch_of_cusp()})
     assert document["scene"] is None
@@ -72,8 +83,8 @@ def test_a_plain_vector_field_has_no_scene_and_no_poses():
 
 
 def test_every_branch_of_a_diagram_is_a_curve():
-    diagram = diagram_of_pp2()
-    assert [c["id"] for c in document_of({"d": diagram})["curves"]] == [f"d_{i}" for i in range(1, len(diagram) + 1)]
+    diagram = Diagram([branch_of_cusp(), branch_of_cusp()])
+    assert [c["id"] for c in document_of({"d": diagram})["curves"]] == ["d_1", "d_2"]
 
 
 def test_a_jump_of_a_load_path_is_rows_between_the_rest_lost_and_the_one_reached(branch):
@@ -87,6 +98,18 @@ def test_a_jump_of_a_load_path_is_rows_between_the_rest_lost_and_the_one_reached
     assert np.array_equal(kept(curve, "height")[own >= 0], path["height"])
     heights = kept(curve, "height")[moving[0] - 1 : moving[-1] + 2]
     assert heights[0] < -0.6 and heights[-1] > 0.9
+
+
+def test_orbits_travel_with_their_motion_also_where_a_force_drives_them():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", mc.ResultWarning)  # an old file, without checksums
+        response = mc.load(Path(__file__).parent.parent / "results" / "written" / "orbits" / "filtered_response.h5")
+    (curve,) = document_of({"response": response})["curves"]
+    motion, height = curve["orbit"], next(iter(response.orbits[0].reading.names))
+    assert curve["kind"] == "orbits" and curve["poses"]["shape"][0] == len(response)
+    rows = unpacked(motion["rows"])
+    assert unpacked(motion["period"]) == pytest.approx(response["period"][rows])
+    assert unpacked(motion["columns"][height]).max(axis=1) == pytest.approx(response[f"{height}.max"][rows], rel=1e-2)
 
 
 def test_a_history_is_drawn_over_time_with_a_pose_a_sample(branch):

@@ -14,6 +14,7 @@ pytest.importorskip("websockets")
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
+import mjcont as mc
 from mjcont.explorer import server as module
 from mjcont.explorer.server import PROTOCOL, TOKEN, Server
 from mjcont.explorer.worker import LARGEST_MESSAGE
@@ -144,6 +145,28 @@ def test_answers_are_not_kept_framed_or_taken_for_something_else(served, path):
 )
 def test_there_are_no_other_routes(served, path):
     assert get(served, path)[0] == 404
+
+
+@pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "OPTIONS", "HEAD", "TRACE"])
+def test_there_is_nothing_but_to_get(served, method):
+    with socket.create_connection(("127.0.0.1", port(served)), timeout=10) as talk:
+        talk.sendall(f"{method} / HTTP/1.1\r\nHost: 127.0.0.1:{port(served)}\r\n\r\n".encode())
+        assert b" 200 " not in talk.recv(200)
+
+
+@pytest.mark.parametrize("noise", [b"\x16\x03\x01\x02\x00\x01\x00\r\n\r\n", b"GET /\r\n\r\n", b"G" * 100_000])
+def test_noise_is_answered_with_nothing_and_the_next_is_served(served, noise):
+    with socket.create_connection(("127.0.0.1", port(served)), timeout=10) as talk:
+        talk.sendall(noise)
+        talk.shutdown(socket.SHUT_WR)
+        assert b" 200 " not in talk.recv(200)
+    assert get(served, "/")[0] == 200
+
+
+def test_a_port_that_is_taken_is_named(served, monkeypatch):
+    monkeypatch.setattr(module, "Worker", Echo)
+    with pytest.raises(mc.MjcontError, match=f"port {port(served)} cannot be listened on: .*in use"):
+        asyncio.run(Server("", port(served)).run(lambda _: None))
 
 
 @pytest.mark.parametrize("host", ["evil.example", "127.0.0.1", "127.0.0.1:1", "localhost.evil.example:80", ""])

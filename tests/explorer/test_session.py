@@ -80,14 +80,38 @@ def test_a_model_opens_with_a_branch_of_the_parameter_that_moves_it():
 
 def test_a_result_opens_as_it_is_and_its_study_computes_it_again(tmp_path, overcentre_branch):
     branch = overcentre_branch(k_j=800.0)
-    branch.save(tmp_path / "b.h5")
-    session = Session(opened(str(tmp_path / "b.h5")), lambda event: None)
+    branch.save(tmp_path / "upper.h5")
+    session = Session(opened(str(tmp_path / "upper.h5")), lambda event: None)
     session.begin()
-    np.testing.assert_array_equal(session.now.results["equilibria"]["theta_1"], branch["theta_1"])
-    found = again(session, tmp_path)["equilibria"]
+    np.testing.assert_array_equal(session.now.results["upper"]["theta_1"], branch["theta_1"])
+    found = again(session, tmp_path)["upper"]
     assert [p.label for p in found.special_points] == [p.label for p in branch.special_points]
     for one, other in zip(found.special_points, branch.special_points, strict=True):
         assert one["F"] == pytest.approx(other["F"], rel=1e-9)
+
+
+def test_a_result_that_no_table_computes_is_shown_and_asked_on_from_its_rows(tmp_path, overcentre_branch):
+    mc.load_path(overcentre_branch(k_j=1000.0), "F", [-50, 0], landing="creep").save(tmp_path / "my path.h5")
+    session = Session(opened(str(tmp_path / "my path.h5")), lambda event: None)
+    session.begin()
+    with pytest.raises(mc.MjcontError, match="nothing to compute anew"):
+        session.set("k_sp", 11.0)
+    session.add("branch", {"row": row("result", 3), "parameter": "F", "bounds": [-50, 50]})
+    assert [p.label for p in session.now.results["equilibria"].special_points] == ["LP1", "LP2"]
+    session.set("k_sp", 11.0)
+    assert [*session.now.results] == ["result", "equilibria"]
+
+
+def test_what_a_model_warns_of_is_a_note_said_once(tmp_path):
+    (tmp_path / "bare.xml").write_text("""<mujoco model="bare"><asset><mesh name="m" file="missing.stl"/></asset>
+        <worldbody><body><joint name="z" axis="0 1 0" stiffness="10"/><geom size="0.1" pos="1 0 0"/>
+        <geom type="mesh" mesh="m" mass="0" contype="0" conaffinity="0"/></body></worldbody></mujoco>""")
+    session = Session(opened(str(tmp_path / "bare.xml")), lambda event: None)
+    assert ["missing.stl" in note for note in session.now.notes] == [True]
+    session.begin()
+    assert ["missing.stl" in note for note in session.now.notes][0]
+    session.add("branch", {"parameter": "load_factor", "bounds": [0.5, 2]})
+    assert not any("missing.stl" in note for note in session.now.notes)
 
 
 def test_a_result_without_a_model_is_refused(tmp_path):

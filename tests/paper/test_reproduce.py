@@ -229,3 +229,4 @@ def test_findings_of_the_overcentre_figures(figure, holding, tmp_path):
     findings = load_script(script).main(tmp_path)
     assert [f.holds for f in findings] == holding
     assert (tmp_path / f"fig{figure:02d}.png").stat().st_size > 10_000
+    assert "equilibria, " in (tmp_path / f"fig{figure:02d}.html").read_text(encoding="utf-8")

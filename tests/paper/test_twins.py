@@ -3,9 +3,8 @@
 import pytest
 from problems.fields import branch_of_cusp
 
-import mjcont as mc
 from mjcont.paper import reproduce as module
-from mjcont.paper.reproduce import load_script, reproduce, scripts_folder
+from mjcont.paper.reproduce import reproduce, scripts_folder
 from mjcont.paper.twins import twins, write_twins
 
 TWINNED = '''"""Figure 1: a curve with a twin."""
@@ -53,15 +52,11 @@ def test_pages_of_a_study_whose_name_begins_alike_are_not_its_own(tmp_path):
     assert twins(tmp_path, "locking") == ("locking.html",)
 
 
-def test_the_report_links_the_twins(scripts, here, tmp_path):
-    report = reproduce([1], tmp_path / "out", say=quiet).report
+def test_the_report_links_a_twin_and_draws_a_figure_again_whose_twin_is_gone(scripts, here, tmp_path):
+    out = tmp_path / "out"
+    report = reproduce([1], out, say=quiet).report
     assert '<a href="fig01.html">figure 1</a>' in report.read_text(encoding="utf-8")
     assert "[figure 1](fig01.html)" in report.with_suffix(".md").read_text(encoding="utf-8")
-
-
-def test_a_figure_whose_twin_is_gone_is_drawn_again(scripts, here, tmp_path):
-    out = tmp_path / "out"
-    reproduce([1], out, say=quiet)
     reproduce([1], out, say=quiet)
     assert (out / "runs.txt").read_text().split() == ["run"]
     (out / "fig01.html").unlink()
@@ -73,10 +68,3 @@ def test_every_figure_of_the_paper_writes_its_twin():
     scripts = sorted(scripts_folder().glob("fig*.py"))
     assert len(scripts) >= 15
     assert all(f'write_twins(out, "{s.stem}", ' in s.read_text(encoding="utf-8") for s in scripts)
-
-
-def test_a_twin_shows_the_curves_of_its_figure(tmp_path):
-    load_script(scripts_folder() / "fig03.py").main(tmp_path)
-    text = (tmp_path / "fig03.html").read_text(encoding="utf-8")
-    assert "equilibria, c_sp = 0.01 N s/m" in text and "equilibria, c_sp = 10 N s/m" in text
-    assert mc.Mechanism.from_xml("overcentre_paper").name in text

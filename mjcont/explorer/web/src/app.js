@@ -18,7 +18,9 @@ import { Store } from "./store.js";
 import { Tornado } from "./tornado.js";
 
 const VERSION = 1;
-const FRAMED = 40;
+// poses that a view is made to hold, of each curve; milliseconds after which a page is painted
+const FRAMED = 40,
+  PAINTED = 30;
 
 /** Draw a document into an element; `transport` speaks with a session, null for a page of its own. */
 export function mount(root, document, transport = null) {
@@ -28,10 +30,7 @@ export function mount(root, document, transport = null) {
     made = frame(root, document.title),
     { panels } = made;
   store.live = Boolean(transport);
-  const mechanism = document.scene
-    ? new Mechanism(panels.mechanism.body, sceneOf(document.scene), `The mechanism ${document.title}`)
-    : null;
-  panels.mechanism.show(Boolean(mechanism));
+  panels.mechanism.show(Boolean(document.scene));
   const readout = new Readout(made.side, store),
     player = new Player(made.player, store);
   const plots = {
@@ -46,13 +45,19 @@ export function mount(root, document, transport = null) {
   for (const [name, plot] of Object.entries(plots)) withPicture(panels[name], () => plot.plot.svg);
   made.arrange();
   store.on("curves", made.arrange);
-  if (mechanism) follow(mechanism, store, panels.mechanism);
   listen(root, store, player);
   buttons(made.actions, store);
   const live = transport ? new Live(made, store, transport) : null;
   store.on("play", () => player.play());
-  const explorer = { store, mechanism, panels, plots, player, live };
+  const explorer = { store, mechanism: null, panels, plots, player, live };
   root.explorer = explorer;
+  // WebGL takes its time to begin: the diagram is on the screen by then
+  if (document.scene)
+    setTimeout(() => {
+      const label = `The mechanism ${document.title}`;
+      explorer.mechanism = new Mechanism(panels.mechanism.body, sceneOf(document.scene), label);
+      follow(explorer.mechanism, store, panels.mechanism);
+    }, PAINTED);
   return explorer;
 }
 
@@ -64,10 +69,7 @@ function follow(mechanism, store, panel) {
     return curve?.orbit?.poses ? poseOfOrbit(curve, row, sample) : poseOf(curve, row);
   };
   const frameAll = () => {
-    const poses = [];
-    for (const curve of store.curves.filter((c) => c.poses))
-      for (let k = 0, n = Math.min(FRAMED, curve.rows); k < n; k++)
-        poses.push(poseOf(curve, Math.round((k * (curve.rows - 1)) / Math.max(n - 1, 1))));
+    const poses = store.curves.flatMap(posesOf);
     mechanism.frame(poses.length ? poses : [mechanism.scene.pose]);
   };
   const here = () => mechanism.pose(pose());
@@ -87,6 +89,19 @@ function follow(mechanism, store, panel) {
     ),
   );
   withPicture(panel, () => mechanism.picture());
+}
+
+/** Return some poses of a curve, evenly: of its rows, or of the motions of its orbits. */
+function posesOf(curve) {
+  if (!curve.poses) return [];
+  const even = (count, most) =>
+    Array.from({ length: Math.min(most, count) }, (_, k, n = Math.min(most, count)) =>
+      Math.round((k * (count - 1)) / Math.max(n - 1, 1)),
+    );
+  const rows = even(curve.rows, FRAMED);
+  if (!curve.orbit?.poses) return rows.map((row) => poseOf(curve, row));
+  const samples = even(curve.orbit.poses.shape[1], 12);
+  return rows.slice(-6).flatMap((row) => samples.map((sample) => poseOfOrbit(curve, row, sample)));
 }
 
 function buttons(host, store) {

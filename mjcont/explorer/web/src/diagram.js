@@ -1,8 +1,9 @@
 // The bifurcation diagram: branches by stability, orbits by their extremes, load paths as broad lines.
 
-import { columnOf, drawnColumns, JUMPING, runsOf, STABILITY } from "./data.js";
+import { columnOf, drawnColumns, runsOf, STABILITY } from "./data.js";
 import { h, s, select } from "./dom.js";
 import { Drag } from "./drag.js";
+import { keyOf } from "./key.js";
 import { Plot } from "./plot.js";
 import { plainName } from "./words.js";
 
@@ -51,6 +52,7 @@ export function pointsOf(lines, selected) {
         y: l.ys[p.row],
         label: l.key.endsWith("/0") && (!many || l.curve === selected) ? p.label : "",
         kind: p.kind,
+        name: p.name.replace(/^jump at /, ""),
         cls: l.curve === selected ? "" : "faint",
       });
     }
@@ -120,14 +122,14 @@ export class Diagram {
     const many = curves.length > 1;
     this.lines = curves.flatMap((c) => linesOf(c, x, y, quantities, many && c !== curve ? "other" : ""));
     this.lines.push(...this.moving());
-    const jumps = this.lines.some((l) => l.runs.some((r) => r.code === JUMPING));
+    const points = pointsOf(this.lines, curve);
+    this.panel.foot.replaceChildren(...keyOf(this.lines, points));
     this.plot.draw({
       x: { quantity: quantities[x], name: x, kind: "log" },
       y: { quantity: quantities[y] ?? quantities[`${y}.max`], name: y, kind: "log" },
       lines: this.lines,
-      points: pointsOf(this.lines, curve),
+      points,
     });
-    this.panel.element.classList.toggle("jumps", jumps);
     this.mark();
     return undefined;
   }
@@ -140,14 +142,13 @@ export class Diagram {
       ys = curve?.columns[y];
     const layer = this.plot.layers.over;
     if (!xs || !ys || !this.plot.x) return layer.replaceChildren();
-    const ways = curve.columns.direction,
-      parts = [];
-    for (let i = 0; i < xs.length; i++) {
-      const pen = i === 0 || (ways && ways[i] !== ways[i - 1]) ? "M" : "L";
-      parts.push(
-        `${pen}${this.plot.x(xs[i] * (quantities[x]?.scale ?? 1)).toFixed(1)},${this.plot.y(ys[i] * (quantities[y]?.scale ?? 1)).toFixed(1)}`,
-      );
-    }
+    const ways = curve.columns.direction;
+    const [px, py] = [this.plot.x, this.plot.y].map((scale, k) => {
+      const factor = quantities[k ? y : x]?.scale ?? 1;
+      return Array.from(k ? ys : xs, (v) => scale(v * factor).toFixed(1));
+    });
+    const pen = (i) => (i === 0 || (ways && ways[i] !== ways[i - 1]) ? "M" : "L");
+    const parts = px.map((v, i) => `${pen(i)}${v},${py[i]}`);
     return layer.replaceChildren(s("path", { class: "line growing", d: parts.join("") }));
   }
 

@@ -4,14 +4,17 @@
 const WINDOW = 60;
 // of places that a press may mean: how near, in pixels, a special point is, or the curve that is selected
 const NEAR = 9;
+// how near a pointer is to what it is told of
+const HINTED = 24;
 
 export class Drag {
-  /** `lines()` returns lines with px, py and the `curve` that they show; `moved(curve, row)` is told, `selected()` asked. */
+  /** `lines()` returns lines with px, py and their `curve`; `moved(curve, row)` is told, `selected()` asked. */
   constructor(plot, lines, moved, selected = () => null) {
     Object.assign(this, { plot, lines, moved, selected, held: null });
     const svg = plot.svg;
     svg.addEventListener("pointerdown", (e) => this.down(e));
-    svg.addEventListener("pointermove", (e) => this.held && this.move(e));
+    svg.addEventListener("pointermove", (e) => (this.held ? this.move(e) : this.hover(e)));
+    svg.addEventListener("pointerleave", () => plot.hint(null));
     for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
       svg.addEventListener(name, () => this.up());
   }
@@ -22,6 +25,7 @@ export class Drag {
     const best = this.meant(x, y);
     if (!best) return;
     this.plot.svg.setPointerCapture(event.pointerId);
+    this.plot.hint(null);
     this.held = { line: best.line, row: best.row, at: [x, y] };
     this.moved(best.line.curve, best.row);
     event.preventDefault();
@@ -41,6 +45,17 @@ export class Drag {
     const far = (p) => (best.line.px[p.row] - x) ** 2 + (best.line.py[p.row] - y) ** 2;
     const special = best.line.curve.specials.filter((p) => far(p) < NEAR ** 2).sort((a, b) => far(a) - far(b))[0];
     return special && best.line.snaps ? { ...best, row: special.row } : best;
+  }
+
+  /** Say what is under a pointer that presses nothing. */
+  hover(event) {
+    if (event.pointerType === "touch") return;
+    const [x, y] = this.plot.where(event),
+      found = this.meant(x, y);
+    if (!found) return;
+    const { line, row } = found,
+      far = Math.hypot(line.px[row] - x, line.py[row] - y);
+    this.plot.hint(far < HINTED ? { line, row } : null);
   }
 
   move(event) {

@@ -1,6 +1,8 @@
 // Where labels stand: beside their points, off the curves, and never on each other.
 
-const GAP = 8;
+// between a point and its label, and between two labels
+const GAP = 8,
+  APART = 5;
 const PLACES = [
   [1, -1],
   [1, 1],
@@ -62,7 +64,7 @@ function boxAt(p, [dx, dy], far) {
 
 function overlaps(box, taken, points, own) {
   const boxes = taken.filter(
-    (t) => box.x < t.x + t.w && t.x < box.x + box.w && box.y < t.y + t.h && t.y < box.y + box.h,
+    (t) => box.x < t.x + t.w + APART && t.x < box.x + box.w + APART && box.y < t.y + t.h && t.y < box.y + box.h,
   );
   const marks = points.filter((p) => p !== own && within(box, p.px, p.py, 6));
   return boxes.length + marks.length;

@@ -3,19 +3,21 @@
 import { h } from "./dom.js";
 import { pictureButton } from "./download.js";
 
-/** Return a panel: {element, body, tools, title(text), show(there)}. */
+/** Return a panel: {element, body, tools, foot, title(text), say(text), show(there)}. */
 export function panel(name, title, area) {
   const heading = h("h2", { class: "panel-title" }, title),
     tools = h("div", { class: "tools" }),
     empty = h("p", { class: "empty", hidden: true }),
-    body = h("div", { class: "panel-body" }, empty);
+    body = h("div", { class: "panel-body" }, empty),
+    foot = h("div", { class: "foot" });
   const head = h("header", { class: "panel-head" }, heading, tools);
-  const element = h("section", { class: `panel ${area}`, "aria-label": title, "data-panel": name }, head, body);
+  const element = h("section", { class: `panel ${area}`, "aria-label": title, "data-panel": name }, head, body, foot);
   const made = {
     name,
     element,
     body,
     tools,
+    foot,
     title(text) {
       if (heading.textContent === text) return;
       heading.textContent = text;
@@ -52,7 +54,7 @@ export function frame(root, title) {
     grid: panel("grid", "Map", "small"),
   };
   const player = h("div", { class: "player" });
-  panels.mechanism.element.append(player);
+  panels.mechanism.foot.append(player);
   const { mechanism, diagram, ...others } = panels;
   const side = h("aside", { class: "side", "aria-label": "Selection" });
   const bar = h(

@@ -33,9 +33,11 @@ export class Live {
     this.stop = h("button", { class: "stop", hidden: true, onclick: () => this.ask("cancel") }, icon("stop"), " Stop");
     this.undo = h("button", { class: "undo", disabled: true, onclick: () => this.back() }, icon("undo"), " Undo");
     status.append(this.bar, this.words, this.stop);
-    actions.prepend(this.undo,
+    actions.prepend(
+      this.undo,
       h("button", { class: "take", onclick: () => this.take("toml", "study.toml", "text/plain") }, "study.toml"),
-      h("button", { class: "take", onclick: () => this.take("page", "page.html", "text/html") }, "page.html"));
+      h("button", { class: "take", onclick: () => this.take("page", "page.html", "text/html") }, "page.html"),
+    );
     side.querySelector(".values").before(this.menu);
     side.querySelector(".held").before(this.sliders);
   }
@@ -43,8 +45,10 @@ export class Live {
   // -- what can be done -----------------------------------------------------------------------------------------
 
   offer() {
-    const { document, curve, row, special } = this.store, found = actionsFor(document, curve, row, special);
-    const key = found.map((a) => `${a.id}${a.label}${a.why ?? ""}`).join("|") + (curve?.id ?? "") + (special?.label ?? "");
+    const { document, curve, row, special } = this.store,
+      found = actionsFor(document, curve, row, special);
+    const key =
+      found.map((a) => `${a.id}${a.label}${a.why ?? ""}`).join("|") + (curve?.id ?? "") + (special?.label ?? "");
     if (key === this.offered) return;
     this.offered = key;
     this.menu.hidden = !found.length;
@@ -55,26 +59,46 @@ export class Live {
     const values = Object.fromEntries(action.fields.map((f) => [f.name, f.value]));
     // the row is that of the click, not the one for which the menu was made
     const run = () => {
-      const { document, curve, row, special } = this.store, now = actionsFor(document, curve, row, special).find((a) => a.id === action.id);
+      const { document, curve, row, special } = this.store,
+        now = actionsFor(document, curve, row, special).find((a) => a.id === action.id);
       if (now && !now.why) this.add(now.table, now.args(values));
     };
     const named = (f) => (f.kind === "choice" ? "" : h("span", {}, f.label));
-    const button = h("button", { class: "do", "data-action": action.id, disabled: Boolean(action.why), title: action.why || null, onclick: run }, action.label);
-    const fields = action.fields.map((f) => h("label", {}, named(f), this.field(f, values), f.unit ? h("span", { class: "unit" }, f.unit) : ""));
-    return h("div", { class: `entry ${fields.length > 1 ? "wide" : ""}` }, button, ...fields, action.why ? h("p", { class: "why" }, action.why) : "");
+    const button = h(
+      "button",
+      { class: "do", "data-action": action.id, disabled: Boolean(action.why), title: action.why || null, onclick: run },
+      action.label,
+    );
+    const fields = action.fields.map((f) =>
+      h("label", {}, named(f), this.field(f, values), f.unit ? h("span", { class: "unit" }, f.unit) : ""),
+    );
+    return h(
+      "div",
+      { class: `entry ${fields.length > 1 ? "wide" : ""}` },
+      button,
+      ...fields,
+      action.why ? h("p", { class: "why" }, action.why) : "",
+    );
   }
 
   field(f, values) {
     const take = (value) => (values[f.name] = value);
     if (f.kind === "choice") return select(f.label, f.options, f.value, take);
-    return h("input", { type: "number", value: f.value, step: "any", "aria-label": f.label, onchange: (e) => take(Number(e.target.value)) });
+    return h("input", {
+      type: "number",
+      value: f.value,
+      step: "any",
+      "aria-label": f.label,
+      onchange: (e) => take(Number(e.target.value)),
+    });
   }
 
   async add(table, args) {
     const found = await this.ask("add", { table, args });
     if (!found) return;
     this.hold(found.sliders);
-    const raws = [found.curve, ...(found.more ?? [])], made = raws.map((raw) => this.store.put(raw, found.quantities));
+    const raws = [found.curve, ...(found.more ?? [])],
+      made = raws.map((raw) => this.store.put(raw, found.quantities));
     const shownFirst = made.find((c) => c.rows);
     if (shownFirst) this.store.select(shownFirst, shownFirst.start ?? 0);
     if (shownFirst?.kind === "history" || shownFirst?.kind === "loadpath") this.store.tell("play");
@@ -117,17 +141,29 @@ export class Live {
     const { sliders } = this.store.document;
     this.sliders.hidden = !sliders.length;
     const open = this.sliders.open;
-    this.sliders.replaceChildren(h("summary", {}, "Parameters"), ...sliders.filter((p) => !p.free).map((p) => this.slider(p)));
+    this.sliders.replaceChildren(
+      h("summary", {}, "Parameters"),
+      ...sliders.filter((p) => !p.free).map((p) => this.slider(p)),
+    );
     this.sliders.open = open;
   }
 
   slider(p) {
-    const log = p.lower > 0 && p.upper / p.lower > DECADES, name = h("span", { class: "name" }), value = h("output", {}, shown(p.value, p.shown, 4));
-    const there = (v) => (log ? Math.log(v / p.lower) / Math.log(p.upper / p.lower) : (v - p.lower) / (p.upper - p.lower));
+    const log = p.lower > 0 && p.upper / p.lower > DECADES,
+      name = h("span", { class: "name" }),
+      value = h("output", {}, shown(p.value, p.shown, 4));
+    const there = (v) =>
+      log ? Math.log(v / p.lower) / Math.log(p.upper / p.lower) : (v - p.lower) / (p.upper - p.lower);
     const back = (t) => (log ? p.lower * (p.upper / p.lower) ** t : p.lower + t * (p.upper - p.lower));
     nameInto(name, p.shown, p.name);
     const input = h("input", {
-      type: "range", min: 0, max: STEPS, step: 1, value: Math.round(STEPS * Math.min(1, Math.max(0, there(p.value)))), "aria-label": p.name, "aria-valuetext": shown(p.value, p.shown, 4),
+      type: "range",
+      min: 0,
+      max: STEPS,
+      step: 1,
+      value: Math.round(STEPS * Math.min(1, Math.max(0, there(p.value)))),
+      "aria-label": p.name,
+      "aria-valuetext": shown(p.value, p.shown, 4),
       oninput: () => {
         value.textContent = shown(back(input.value / STEPS), p.shown, 4);
         input.setAttribute("aria-valuetext", value.textContent);
@@ -173,15 +209,28 @@ export class Live {
   progress({ what, name, share, done, seconds, found }) {
     if (!this.busy) this.working(0);
     if (Number.isFinite(share)) this.bar.value = share;
-    const points = Object.entries(found ?? {}).map(([kind, n]) => `${n} ${kind}`).join(", ");
+    const points = Object.entries(found ?? {})
+      .map(([kind, n]) => `${n} ${kind}`)
+      .join(", ");
     this.words.classList.remove("bad");
-    this.words.textContent = [what || name, done ? `${Math.round(done)} points` : "", points, seconds ? `${seconds.toFixed(1)} s` : ""].filter(Boolean).join(", ");
+    this.words.textContent = [
+      what || name,
+      done ? `${Math.round(done)} points` : "",
+      points,
+      seconds ? `${seconds.toFixed(1)} s` : "",
+    ]
+      .filter(Boolean)
+      .join(", ");
   }
 
   arrived({ curve, partial, quantities, sliders }) {
     this.hold(sliders);
     if (!partial) this.store.put(curve, quantities);
-    else this.store.tell("partial", { id: curve.id, columns: Object.fromEntries(Object.entries(curve.columns).map(([n, c]) => [n, unpack(c)])) });
+    else
+      this.store.tell("partial", {
+        id: curve.id,
+        columns: Object.fromEntries(Object.entries(curve.columns).map(([n, c]) => [n, unpack(c)])),
+      });
   }
 
   state({ can_undo: can, undo, running, notes }) {

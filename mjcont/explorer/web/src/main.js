@@ -15,7 +15,8 @@ async function begin(root) {
 
 /** Draw a session into a cell of a notebook, and return what takes it away: the widget's side of anywidget. */
 async function render({ model, el }) {
-  const root = el.appendChild(document.createElement("div")), transport = connectWidget(model);
+  const root = el.appendChild(document.createElement("div")),
+    transport = connectWidget(model);
   try {
     mount(root, await transport.request("document", {}), transport);
     root.classList.add("embedded");

@@ -90,7 +90,7 @@ export class Mechanism {
     const key = new DirectionalLight(0xffffff, 1.9);
     key.position.set(0.5, 0.9, 1);
     this.camera.add(key);
-    this.world.add(this.camera, new HemisphereLight(0xffffff, 0x8a94a6, 1.25), new AmbientLight(0xffffff, 0.35));
+    this.world.add(this.camera, new HemisphereLight(0xffffff, 0x8a94a6, 1.55), new AmbientLight(0xffffff, 0.35));
     this.bodies = this.scene.bodies.map(() => new Group());
     this.ground = new Group();
     this.world.add(this.ground, ...this.bodies);

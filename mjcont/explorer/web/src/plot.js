@@ -7,7 +7,7 @@ import { h, s } from "./dom.js";
 import { placeLabels } from "./labels.js";
 import { extentOf, scaleFor, ticksOf } from "./scales.js";
 import { markerPath } from "./symbols.js";
-import { nameIntoSvg, tick } from "./words.js";
+import { nameIntoSvg, plainName, shown, tick } from "./words.js";
 
 const MARGIN = { right: 14, top: 12, bottom: 44 };
 // beside the axis: the title, ticks, and what a digit takes
@@ -36,7 +36,8 @@ export class Plot {
       ...this.titles,
     );
     this.dot = h("div", { class: "marker", "aria-hidden": "true" });
-    host.append(this.svg, this.dot);
+    this.words = h("div", { class: "hint", "aria-hidden": "true", hidden: true });
+    host.append(this.svg, this.dot, this.words);
     this.content = null;
     if (zooms) this.enableZoom();
     new ResizeObserver(() => this.content && this.render()).observe(host);
@@ -230,11 +231,34 @@ export class Plot {
     if (there) this.dot.style.transform = `translate(${px.toFixed(2)}px,${py.toFixed(2)}px)`;
   }
 
+  /** Say in words what a row of a line is, beside it; nothing for null. */
+  hint(found) {
+    this.words.hidden = !found;
+    if (!found) return;
+    const { line, row } = found,
+      { x, y } = this.content,
+      { width } = this.host.getBoundingClientRect();
+    const special = line.curve.special?.get(row),
+      told = special ? [special.label] : [];
+    told.push(`${plainName(x.quantity, x.name)} = ${value(line.xs[row], x.quantity)}`);
+    told.push(`${plainName(y.quantity, y.name)} = ${value(line.ys[row], y.quantity)}`);
+    this.words.textContent = told.join("\n");
+    const left = line.px[row] > width / 2,
+      top = Math.max(4, line.py[row] - 14);
+    this.words.style.left = left ? "auto" : `${line.px[row] + 14}px`;
+    this.words.style.right = left ? `${width - line.px[row] + 14}px` : "auto";
+    this.words.style.top = `${top}px`;
+  }
+
   /** Return where an event is, in pixels of the diagram. */
   where(event) {
     const box = this.svg.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   }
+}
+
+function value(number, quantity) {
+  return shown(number, { ...quantity, scale: 1 }, 4);
 }
 
 function between(v, [a, b]) {

@@ -65,7 +65,7 @@ function geometryOf(geom, geometries) {
   if (geom.type === "box") return new BoxGeometry(1, 1, 1);
   if (geom.type === "cylinder") return (UNIT.cylinder ??= new CylinderGeometry(1, 1, 2, 28).rotateX(Math.PI / 2));
   if (geom.type === "capsule") return new BufferGeometry();
-  return (UNIT.sphere ??= new SphereGeometry(1, 28, 18));
+  return (UNIT.sphere ??= new SphereGeometry(1, 40, 26));
 }
 
 export function materialOf([r, g, b, a], ground = false) {

@@ -20,13 +20,14 @@ export class Store {
     this.curves = document.curves.map(curveOf);
     const start = this.curves.find((c) => c.id === before) ?? this.curves.find((c) => c.rows) ?? null;
     this.curve = start;
-    this.row = start ? Math.min(before === start.id ? this.row : start.start ?? 0, start.rows - 1) : 0;
+    this.row = start ? Math.min(before === start.id ? this.row : (start.start ?? 0), start.rows - 1) : 0;
     this.sample = 0;
   }
 
   /** Add a curve, or put it in the place of the one with its id; `quantities` are those it brings. */
   put(raw, quantities = {}) {
-    const curve = curveOf(raw), k = this.curves.findIndex((c) => c.id === curve.id);
+    const curve = curveOf(raw),
+      k = this.curves.findIndex((c) => c.id === curve.id);
     this.quantities = this.document.quantities = byName({ ...quantities, ...this.quantities });
     const raws = this.document.curves;
     if (k < 0) {
@@ -44,7 +45,8 @@ export class Store {
 
   /** Take the eigenvalues of a curve that came without. */
   complete(id, eigenvalues) {
-    const curve = this.curves.find((c) => c.id === id), raw = this.document.curves.find((c) => c.id === id);
+    const curve = this.curves.find((c) => c.id === id),
+      raw = this.document.curves.find((c) => c.id === id);
     if (!curve) return;
     raw.eigenvalues = eigenvalues;
     curve.eigenvalues = unpack(eigenvalues);
@@ -63,7 +65,8 @@ export class Store {
   /** Select a row; how long that takes, drawing aside, is kept for who measures it. */
   select(curve, row, sample = 0) {
     if (!curve?.rows) return;
-    const begun = performance.now(), other = curve !== this.curve;
+    const begun = performance.now(),
+      other = curve !== this.curve;
     const now = Math.max(0, Math.min(curve.rows - 1, row));
     if (!other && now === this.row && sample === this.sample) return;
     [this.curve, this.row, this.sample] = [curve, now, sample];

@@ -64,7 +64,8 @@ export class Tornado {
     const fill = h("span", { class: `bar-fill ${change < 0 ? "minus" : "plus"}` });
     fill.style.width = `${Math.max(part / 2, 0.4)}%`;
     const words = `${change < 0 ? "\u2212" : change > 0 ? "+" : ""}${shown(Math.abs(change), moved, 3)}`;
-    const text = `${plainName(quantities[name], name)} + ${tolerance} moves ${plainName(moved, this.quantity)} by ${words}`;
+    const [cause, effect] = [plainName(quantities[name], name), plainName(moved, this.quantity)];
+    const text = `${cause} + ${tolerance} moves ${effect} by ${words}`;
     return h(
       "li",
       {},

@@ -3,10 +3,12 @@
 const KEY = "mjcont token";
 const PROTOCOL = "mjcont";
 
-/** Return what asks a session: request(op, args) -> a promise, on(event, listener), close(). `send` hands a text over. */
+/** Return what asks a session: request(op, args) -> a promise, on(event, listener), close(). `send` hands over. */
 function transport(send, close) {
-  const waiting = new Map(), listeners = new Map();
-  let count = 0, over = "";
+  const waiting = new Map(),
+    listeners = new Map();
+  let count = 0,
+    over = "";
   const tell = (event, detail) => (listeners.get(event) ?? []).forEach((listener) => listener(detail));
   const end = (message) => {
     over = message;
@@ -65,7 +67,10 @@ export function connect() {
   if (!known) return Promise.reject(new Error("Open the whole address that mjcont printed: this one lacks its token."));
   return new Promise((resolve, reject) => {
     const socket = new WebSocket(`ws://${location.host}/socket`, [PROTOCOL, `token.${known}`]);
-    const made = transport((text) => socket.send(text), () => socket.close());
+    const made = transport(
+      (text) => socket.send(text),
+      () => socket.close(),
+    );
     socket.onopen = () => resolve(made);
     socket.onmessage = ({ data }) => made.take(data);
     socket.onclose = () => {
@@ -77,7 +82,10 @@ export function connect() {
 
 /** Connect with a session through a notebook's widget, whose kernel hands messages on. */
 export function connectWidget(model) {
-  const made = transport((text) => model.send({ text }), () => model.off("msg:custom", hear));
+  const made = transport(
+    (text) => model.send({ text }),
+    () => model.off("msg:custom", hear),
+  );
   const hear = ({ text }) => made.take(text);
   model.on("msg:custom", hear);
   return made;

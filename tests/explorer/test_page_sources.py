@@ -17,6 +17,7 @@ def test_every_module_says_what_it_is_for_and_is_no_longer_than_400_lines():
         lines = source.read_text(encoding="utf-8").splitlines()
         assert lines[0].startswith(("// ", "/* ")), source.name
         assert len(lines) <= 400, source.name
+        assert source.name.endswith(".css") or max(map(len, lines)) <= 120, source.name
 
 
 def test_no_function_is_longer_than_60_lines():
