@@ -110,8 +110,8 @@ export class Live {
   }
 
   async back() {
-    await this.ask("undo");
-    await this.reload();
+    const document = await this.ask("undo");
+    if (document) this.replace(document);
   }
 
   async reload() {
