@@ -6,7 +6,7 @@ stands by itself. Whatever a page may ask for is bounded here.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -37,7 +37,8 @@ _AS_LARGE = 1.0 - 1e-6
 
 
 def table_of(
-    table: str, args: Mapping[str, Any], results: Mapping[str, Any], mechanism: Mechanism, common: Mapping[str, float]
+    table: str, args: Mapping[str, Any], results: Mapping[str, Any], mechanism: Mechanism, common: Mapping[str, float],
+    given: Container[str] = (),
 ) -> dict[str, Any]:
     """Return the table of a study that a click stands for, but for its name.
 
@@ -48,6 +49,7 @@ def table_of(
         which it begins; `nudge`, a disturbance of that along its critical mode, in rad and sizes of the model.
     results : those that there are, by name.
     common : the study's values for all results.
+    given : names of results that no table of the study computes.
 
     Raises
     ------
@@ -62,7 +64,12 @@ def table_of(
             raise ParameterError(f"'{key}' is not for a page to say")
     _check_size(found)
     if args.get("row") is not None:
-        found |= _begun(table, found, args["row"], args.get("nudge"), results, mechanism, common)
+        curve, index = _row_of(args["row"])
+        if curve not in results:
+            raise unknown_name("curve", curve, results)
+        if isinstance(results[curve], CycleBranch) and curve in given:
+            raise ParameterError(f"'{curve}' is of a file: a study goes on from orbits of its own curves only")
+        found |= _begun(table, found, curve, index, args.get("nudge"), results, mechanism, common)
     return found
 
 
@@ -84,13 +91,10 @@ def _check_size(found: Mapping[str, Any]) -> None:
 
 
 def _begun(
-    table: str, found: Mapping[str, Any], row: Any, nudge: Any, results: Mapping[str, Any], mechanism: Mechanism,
-    common: Mapping[str, float],
+    table: str, found: Mapping[str, Any], curve: str, index: int, nudge: Any, results: Mapping[str, Any],
+    mechanism: Mechanism, common: Mapping[str, float],
 ) -> dict[str, Any]:
     """Return the keys that let a table begin at a row."""
-    curve, index = _row_of(row)
-    if curve not in results:
-        raise unknown_name("curve", curve, results)
     result = results[curve]
     if isinstance(result, CycleBranch):
         return {"from": f"{curve}:{_orbit_label(result, index)}"}

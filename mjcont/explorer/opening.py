@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,7 @@ from mjcont.errors import MjcontError, ResultFileError, StudyError
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.loading import shipped_models
 from mjcont.numerics.equations import clock
+from mjcont.numerics.equations.settings import Settings
 from mjcont.results.branch import Branch
 from mjcont.results.files import RESULT_SUFFIXES
 from mjcont.results.formats import load
@@ -125,8 +126,11 @@ def _again(path: Path, branch: Branch, mechanism: Mechanism) -> dict[str, Any]:
         "name": _called(path), "parameter": name, "bounds": [float(b) for b in bounds],
         "start": {name: float(branch[name][start])}, "state": [float(x) for x in branch.states[start]], **one_way,
     }
-    if branch.settings:
-        table["settings"] = dict(branch.settings)
+    zeros, own = branch.settings.get("zeros"), {f.name for f in fields(Settings)}
+    if zeros:
+        table["zeros"] = dict(zeros)
+    if settings := {n: v for n, v in branch.settings.items() if n in own}:
+        table["settings"] = settings
     return {"parameters": fixed, "branch": [table]} if fixed else {"branch": [table]}
 
 

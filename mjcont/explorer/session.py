@@ -137,7 +137,8 @@ class Session:
         """
         now = self.now
         self.stop.clear()
-        made = {"name": self._free_name(table), **table_of(table, args, now.results, self.mechanism, now.common)}
+        keys = table_of(table, args, now.results, self.mechanism, now.common, self._given)
+        made = {"name": self._free_name(table), **keys}
         tables = {**now.tables, table: [*now.tables.get(table, []), made]}
         with self._heeding() as notes, self._busy(made["name"]):
             study = self._checked(tables)

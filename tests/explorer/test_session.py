@@ -90,6 +90,23 @@ def test_a_result_opens_as_it_is_and_its_study_computes_it_again(tmp_path, overc
         assert one["F"] == pytest.approx(other["F"], rel=1e-9)
 
 
+def test_zeros_of_a_stored_branch_are_found_again(tmp_path):
+    mechanism = mc.Mechanism.from_xml("overcentre")
+    mc.continue_equilibria(mechanism, "F", (-50, 50), {"F": 50}, zeros={"theta_1": 0.0}).save(tmp_path / "upper.h5")
+    session = Session(opened(str(tmp_path / "upper.h5")), lambda event: None)
+    session.begin()
+    assert [p.label for p in again(session, tmp_path)["upper"].special_points] == ["LP1", "UZ1", "LP2"]
+
+
+def test_orbits_of_a_file_are_shown_but_nothing_goes_on_from_them(tmp_path):
+    column = mc.continue_equilibria(mc.Mechanism.from_xml("ziegler_rods"), "P", (0.0, 4.0))
+    mc.continue_cycles(column.point("HB1"), "P", max_points=5).save(tmp_path / "flutter.h5")
+    session = Session(opened(str(tmp_path / "flutter.h5")), lambda event: None)
+    session.begin()
+    with pytest.raises(mc.MjcontError, match="'flutter' is of a file"):
+        session.add("histories", {"row": row("flutter", 0)})
+
+
 def test_a_result_that_no_table_computes_is_shown_and_asked_on_from_its_rows(tmp_path, overcentre_branch):
     mc.load_path(overcentre_branch(k_j=1000.0), "F", [-50, 0], landing="creep").save(tmp_path / "my path.h5")
     session = Session(opened(str(tmp_path / "my path.h5")), lambda event: None)
