@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from mjcont.drawing.poses import add_poses, draw, draw_poses
     from mjcont.influence.critical import follow_point
     from mjcont.influence.extremes import worst_case
+    from mjcont.influence.holds import hold
     from mjcont.influence.maps import special_map
     from mjcont.influence.sensitivities import sensitivities
     from mjcont.mechanism.mechanism import Mechanism
@@ -64,6 +65,7 @@ if TYPE_CHECKING:
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
     from mjcont.results.branch import Branch, Diagram
     from mjcont.results.certificates import Certificate
+    from mjcont.results.choices.holds import Hold
     from mjcont.results.formats import load
     from mjcont.results.histories import History
     from mjcont.results.linear import Mode, Modes, Transfer
@@ -95,6 +97,7 @@ _HOMES = {
     "mjcont.drawing.poses": ("add_poses", "draw", "draw_poses"),
     "mjcont.influence.critical": ("follow_point",),
     "mjcont.influence.extremes": ("worst_case",),
+    "mjcont.influence.holds": ("hold",),
     "mjcont.influence.maps": ("special_map",),
     "mjcont.influence.sensitivities": ("sensitivities",),
     "mjcont.mechanism.mechanism": ("Mechanism",),
@@ -113,6 +116,7 @@ _HOMES = {
     "mjcont.results.barriers": ("Barrier", "BarrierCurve", "BarrierMap"),
     "mjcont.results.branch": ("Branch", "Diagram"),
     "mjcont.results.certificates": ("Certificate",),
+    "mjcont.results.choices.holds": ("Hold",),
     "mjcont.results.formats": ("load",),
     "mjcont.results.histories": ("History",),
     "mjcont.results.loadpaths": ("Delay", "Jump", "LoadPath", "Segment"),
@@ -150,6 +154,7 @@ __all__ = [
     "FunctionError",
     "Harmonic",
     "History",
+    "Hold",
     "Jump",
     "LoadPath",
     "Mechanism",
@@ -200,6 +205,7 @@ __all__ = [
     "find_equilibria",
     "find_equilibrium",
     "follow_point",
+    "hold",
     "iterate_equilibria",
     "load",
     "load_path",
