@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from mjcont.influence.holds import hold
     from mjcont.influence.maps import special_map
     from mjcont.influence.sensitivities import sensitivities
+    from mjcont.influence.targets import design
     from mjcont.mechanism.mechanism import Mechanism
     from mjcont.models.bushes import add_bushes, bushed_xml, set_constraint_stiffness
     from mjcont.models.equalities import ConstraintStiffness, constraint_stiffness
@@ -66,6 +67,7 @@ if TYPE_CHECKING:
     from mjcont.results.branch import Branch, Diagram
     from mjcont.results.certificates import Certificate
     from mjcont.results.choices.holds import Hold
+    from mjcont.results.choices.targets import Design, Outcome
     from mjcont.results.formats import load
     from mjcont.results.histories import History
     from mjcont.results.linear import Mode, Modes, Transfer
@@ -100,6 +102,7 @@ _HOMES = {
     "mjcont.influence.holds": ("hold",),
     "mjcont.influence.maps": ("special_map",),
     "mjcont.influence.sensitivities": ("sensitivities",),
+    "mjcont.influence.targets": ("design",),
     "mjcont.mechanism.mechanism": ("Mechanism",),
     "mjcont.models.bushes": ("add_bushes", "bushed_xml", "set_constraint_stiffness"),
     "mjcont.models.equalities": ("ConstraintStiffness", "constraint_stiffness"),
@@ -117,6 +120,7 @@ _HOMES = {
     "mjcont.results.branch": ("Branch", "Diagram"),
     "mjcont.results.certificates": ("Certificate",),
     "mjcont.results.choices.holds": ("Hold",),
+    "mjcont.results.choices.targets": ("Design", "Outcome"),
     "mjcont.results.formats": ("load",),
     "mjcont.results.histories": ("History",),
     "mjcont.results.loadpaths": ("Delay", "Jump", "LoadPath", "Segment"),
@@ -147,6 +151,7 @@ __all__ = [
     "ConstraintStiffness",
     "CycleBranch",
     "Delay",
+    "Design",
     "Diagram",
     "Equilibria",
     "Equilibrium",
@@ -165,6 +170,7 @@ __all__ = [
     "Modes",
     "NameLookupError",
     "Orbit",
+    "Outcome",
     "ParameterError",
     "Point",
     "RangeWarning",
@@ -197,6 +203,7 @@ __all__ = [
     "continue_modes",
     "continue_response",
     "continue_special",
+    "design",
     "draw",
     "draw_poses",
     "energy_barrier",
