@@ -16,7 +16,7 @@ from mjcont.influence.aims.followed import Lost
 from mjcont.influence.aims.optimise import Ended, optimise
 from mjcont.influence.aims.outcome import design_of
 from mjcont.influence.aims.program import Program
-from mjcont.influence.aims.statements import BARRIER, Statement, quantity_of, read_statements
+from mjcont.influence.aims.statements import BARRIER, Statement, quantities_of, quantity_of, read_statements
 from mjcont.influence.critical import called, check_alone, check_not_own
 from mjcont.influence.extremes import worst_case
 from mjcont.numerics.equations.problem import Array
@@ -52,17 +52,13 @@ def design(
     ----------
     points : special points or equilibria of one model, called by their labels or by the names of a dict
     change : mapping of parameter to (low, high), SI and radians
-        Controls, fields by path, geometry: whatever `mechanism.parameter(...)` takes.
     targets : statements
-        "LP1.F == 14 N", "CP1.F_ul >= -400", "|CP1.F_ul| <= 400 over gusts", "rest.barrier >= 2 J". A quantity is the
-        point's own parameter, an observable, "omega" of a Hopf point, or the energy barrier of a rest.
+        "LP1.F == 14 N", "CP1.F_ul >= -400", "|CP1.F_ul| <= 400 over gusts", "rest.barrier >= 2 J".
     objective : optional
-        What is least: by default the sum of the squares of the changes in their scales. A quantity "LP1.F", its
-        negative "-LP1.F", a parameter, weights of several of these ({"m_1": 1, "m_2": 1}), or a function of a dict of
-        the parameters.
+        What is least: by default the sum of the squares of the changes in their scales; a quantity "LP1.F", its
+        negative, a parameter, weights of several of these, or a function of a dict of the parameters.
     cases : mapping of name to load cases, optional
-        For statements that end in "over NAME": a list of dicts of parameter values, or a box, a dict of parameter to
-        (low, high), over which the limit holds everywhere.
+        For "over NAME": a list of dicts of parameter values, or a box, a dict of parameter to (low, high).
     scales : mapping of parameter to the change that counts as one, optional
         Default the parameter's size, or half the width of its bounds where that is zero.
     starts : designs to start from, optional
@@ -81,25 +77,32 @@ def design(
         If a name is unknown, a statement does not read so, a point cannot be followed, or bounds do not fit.
     """
     named = _named(points)
+    before = next(iter(named.values())).model.evaluations
     names, today, low, high = _changed(named, change)
     sizes = _scales(names, today, low, high, scales)
     loads = _loads(named, names, cases or {})
-    statements = read_statements([targets] if isinstance(targets, str) else list(targets), named, loads)
-    if not statements:
-        raise ParameterError('name at least one target, such as "LP1.F == 14 N"')
-    program = Program(named, names, today, sizes, low, high, _objective(objective, named, names))
-    before = program.evaluations
-    boxes = [s for s in statements if isinstance(loads.get(s.over), Mapping)]
-    _refuse_boxes(boxes, named)
-    for s in statements:
-        _add(program, s, loads)
     begin = _starts(names, starts, low, high, today)
+    known = {name: quantities_of(p) for name, p in named.items()}
+    statements = read_statements([targets] if isinstance(targets, str) else list(targets), known, loads)
+    program = Program(named, names, today, sizes, low, high, _objective(objective, known, names))
+    boxes = _stated(program, statements, loads)
     ended: list[Ended] = []
     for p in begin:
         ended.append(_from(program, (p - today) / sizes, tol, boxes, loads))
         if progress is not None:
             progress(len(ended), len(begin))
     return design_of(program, ended, tol, before)
+
+
+def _stated(program: Program, statements: Sequence[Statement], loads: Mapping[str, Any]) -> list[Statement]:
+    """Put statements in all their load cases into the program; return those over a box."""
+    if not statements:
+        raise ParameterError('name at least one target, such as "LP1.F == 14 N"')
+    boxes = [s for s in statements if isinstance(loads.get(s.over), Mapping)]
+    _refuse_boxes(boxes, program.points)
+    for s in statements:
+        _add(program, s, loads)
+    return boxes
 
 
 def _from(program: Program, v: Array, tol: float, boxes: Sequence[Statement], loads: Mapping[str, Any]) -> Ended:
@@ -237,7 +240,7 @@ def _refuse_boxes(boxes: Sequence[Statement], points: Mapping[str, Point]) -> No
             raise ParameterError(f'"{s.text}": {said}')
 
 
-def _objective(given: Any, points: Mapping[str, Point], names: Sequence[str]) -> Any:
+def _objective(given: Any, known: Mapping[str, Mapping[str, str]], names: Sequence[str]) -> Any:
     """Return what is least: None for the change, weights, or a function."""
     if given is None or (callable(given) and not isinstance(given, str | Mapping)):
         return given
@@ -246,7 +249,7 @@ def _objective(given: Any, points: Mapping[str, Point], names: Sequence[str]) ->
     for name, weight in weights.items():
         own = name
         if name not in names:
-            point, quantity, _ = quantity_of(name, points)
+            point, quantity, _ = quantity_of(name, known)
             own = f"{point}.{quantity}"
         found[own] = finite(f"the weight of {name}", weight)
     if not found:

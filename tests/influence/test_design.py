@@ -133,7 +133,7 @@ def test_points_and_diagrams_are_there_before_and_after():
     found = hill_design("LP1.la == 0.5")
     assert found.points_before["LP1"]["la"] == pytest.approx(0.83, rel=1e-9)
     assert found.points["LP1"]["la"] == pytest.approx(0.5, rel=1e-9)
-    before, after = found.branches()
+    before, after = found.diagrams()
     assert [b.point("LP1")["la"] for b in (before, after)] == pytest.approx([0.83, 0.5], rel=1e-8)
 
 

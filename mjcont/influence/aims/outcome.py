@@ -10,7 +10,7 @@ import numpy as np
 from mjcont.influence.aims.optimise import Ended
 from mjcont.influence.aims.program import Condition, Program
 from mjcont.numerics.equations.problem import Array
-from mjcont.results.choices.targets import Design, Outcome
+from mjcont.results.choices.targets import Design, Outcome, in_size
 from mjcont.results.points import show
 from mjcont.results.units import displayed, sized
 
@@ -82,8 +82,8 @@ def _cost(program: Program, end: Ended, i: int) -> str:
     name = program.names[most]
     unit = next(iter(program.points.values())).model.parameters[name].unit
     word = "more" if dt > 0 else "less"
-    price = show(abs(moved[most] * program.scales[most]), unit, 3)
-    return f"{show(step, c.statement.unit, 3)} {word} costs {price} of {name}"
+    price = in_size(float(f"{abs(moved[most] * program.scales[most]):.3g}"), unit)
+    return f"{in_size(step, c.statement.unit, c.size)} {word} costs {price} of {name}"
 
 
 def _step(c: Condition) -> float:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from mjcont.errors import ParameterError, unknown_name
-from mjcont.results.points import Point, show
+from mjcont.results.points import Point
 from mjcont.results.quantities import column_of, finite
 from mjcont.results.units import conversion
 
+# the quantities of each point, with their units
+Known = Mapping[str, Mapping[str, str]]
 BARRIER = "barrier"
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _FORM = re.compile(
@@ -42,18 +43,15 @@ class Statement:
     unit: str
     over: str = ""
 
-    @property
-    def name(self) -> str:
-        """The quantity with its point."""
-        return f"{self.point}.{self.quantity}"
 
-    def __str__(self) -> str:
-        """Return it with its value as shown."""
-        over = f" over {self.over}" if self.over else ""
-        return f"{self.name} {self.relation} {show(self.value, self.unit)}{over}"
+def quantities_of(point: Point) -> dict[str, str]:
+    """Return the quantities of a point, with their units."""
+    own = {n: point.units.get(n, "") for n in (*point.parameters, *point.observables)}
+    omega = {"omega": "rad/s"} if "omega" in getattr(point, "coefficients", {}) else {}
+    return {**own, **omega, BARRIER: "J"}
 
 
-def quantity_of(written: str, points: Mapping[str, Point]) -> tuple[str, str, str]:
+def quantity_of(written: str, known: Known) -> tuple[str, str, str]:
     """Return the point, the quantity and its unit that "LP1.F" means.
 
     Raises
@@ -63,24 +61,16 @@ def quantity_of(written: str, points: Mapping[str, Point]) -> tuple[str, str, st
     """
     name, dot, quantity = written.strip().partition(".")
     if not dot:
-        raise ParameterError(f'"{written}": name a point and a quantity of it, such as "{next(iter(points))}.F"')
-    if name not in points:
-        raise unknown_name("point", name, points)
-    point = points[name]
-    if quantity == BARRIER:
-        return name, quantity, "J"
-    known = [*point.parameters, *point.observables]
-    known += ["omega"] if "omega" in getattr(point, "coefficients", {}) else []
-    own = quantity if quantity in known else column_of(quantity, known)
+        raise ParameterError(f'"{written}": name a point and a quantity of it, such as "{next(iter(known))}.F"')
+    if name not in known:
+        raise unknown_name("point", name, known)
+    own = column_of(quantity, known[name])
     if own is None:
-        raise unknown_name(f"quantity of {name}", quantity, [*known, BARRIER])
-    unit = "rad/s" if own == "omega" else point.units.get(own, "")
-    return name, own, unit
+        raise unknown_name(f"quantity of {name}", quantity, known[name])
+    return name, own, known[name][own]
 
 
-def read_statements(
-    given: Sequence[str], points: Mapping[str, Point], cases: Mapping[str, Any]
-) -> list[Statement]:
+def read_statements(given: Sequence[str], known: Known, cases: Collection[str]) -> list[Statement]:
     """Return what texts say; a limit on |q| is two.
 
     Raises
@@ -95,10 +85,10 @@ def read_statements(
             raise ParameterError(f'"{text}": {_EXPECTED}')
         left, relation, over = match["left"].strip(), match["relation"], match["over"] or ""
         bars = left.startswith("|") and left.endswith("|") and len(left) > 2
-        point, quantity, unit = quantity_of(left.strip("| ") if bars else left, points)
+        point, quantity, unit = quantity_of(left.strip("| ") if bars else left, known)
         value = finite(f'"{text}": the value', float(match["value"]) * conversion(match["unit"].strip(), unit))
         if over and over not in cases:
-            raise unknown_name("set of load cases", over, cases)
+            raise unknown_name("set of load cases", over, list(cases))
         if not bars:
             found.append(Statement(text, point, quantity, relation, value, unit, over))
             continue

@@ -14,6 +14,7 @@ from mjcont.results.branch import Branch
 from mjcont.results.model import Model
 from mjcont.results.points import Point, SpecialPoint, show
 from mjcont.results.text import Cells, Shown, Tabular, table
+from mjcont.results.units import displayed, sized
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +54,7 @@ class Outcome:
 
     def __str__(self) -> str:
         """Return the statement with its value as shown."""
-        return f"{self.name} {self.relation} {show(self.value, self.unit)}"
+        return f"{self.name} {self.relation} {in_size(self.value, self.unit)}"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -114,7 +115,7 @@ class Design(Tabular, Shown):
             raise unknown_name("parameter", name, self.parameters)
         return self.parameters[name]
 
-    def branches(self, point: str | None = None, **options: Any) -> tuple[Branch, Branch]:
+    def diagrams(self, point: str | None = None, **options: Any) -> tuple[Branch, Branch]:
         """Return the curves of equilibria through a point, before and after, in its first free parameter.
 
         Parameters
@@ -151,12 +152,13 @@ class Design(Tabular, Shown):
             The observable to draw against the point's free parameter.
         ax : matplotlib Axes, optional
         """
-        from mjcont.drawing.choices import draw_before_and_after, draw_changes
+        from mjcont.drawing.charts import draw_changes
+        from mjcont.drawing.plotting import plot
 
         if y is None and point is None:
             return draw_changes(self, ax)
-        before, after = self.branches(point)
-        return draw_before_and_after(before, after, y or next(iter(self.problem.observables)), ax)
+        before, after = self.diagrams(point)
+        return plot(before, after, x=next(iter(before.free)), y=y or next(iter(self.problem.observables)), ax=ax)
 
     def to_xml(self, path: str | Path, *, source: str | Path | None = None) -> Path:
         """Write the model's MJCF with the new numbers, everything else in it as it is, comments too; return the path.
@@ -200,7 +202,7 @@ class Design(Tabular, Shown):
             rows.append([n, show(self.before[n], unit, 6), show(v, unit, 6) + bound, _signed(moved, unit)])
         lines = [self.message, *table(rows)]
         rows = [["condition", "before", "after", ""]]
-        for c in self.conditions:
+        for c in _nearer(self.conditions):
             load = ", ".join(f"{n} = {show(v, unit_of[n].unit, 4)}" for n, v in c.load.items())
             word = "not met" if not c.met else "active" if c.active else ""
             rows.append([f"{c}{' at ' if load else ''}{load}", show(c.before, c.unit), show(c.after, c.unit), word])
@@ -209,6 +211,24 @@ class Design(Tabular, Shown):
         lines += [f"  {sentence}" for sentence in self.cuts]
         kkt = f"gradient of the Lagrangian {self.kkt:.1e}; " if self.met else ""
         return "\n".join([*lines, f"  {kkt}{self.evaluations} evaluations"])
+
+
+def in_size(value: float, unit: str, size: float | None = None) -> str:
+    """Return a value with the unit in which its size, or another one, reads well: kN, mm, deg."""
+    shown, factor = displayed(unit)
+    shown, larger = sized(shown, abs(value if size is None else size))
+    return f"{value * factor * larger:.7g} {shown}".rstrip().removesuffix(" 1")
+
+
+def _nearer(conditions: Sequence[Outcome]) -> list[Outcome]:
+    """Return the conditions, of the two that a limit on |...| is the one that is nearer to its value."""
+    found: dict[tuple[str, str], Outcome] = {}
+    for c in conditions:
+        key = c.text, repr(dict(c.load))
+        other = found.get(key)
+        if other is None or abs(c.after - c.value) < abs(other.after - other.value):
+            found[key] = c
+    return list(found.values())
 
 
 def _signed(value: float, unit: str) -> str:
