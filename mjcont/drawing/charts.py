@@ -16,6 +16,7 @@ from mjcont.results.points import Column, SpecialPoint, show
 
 if TYPE_CHECKING:
     from mjcont.results.certificates import Certificate
+    from mjcont.results.choices.holds import Hold
     from mjcont.results.choices.targets import Design
     from mjcont.results.histories import History
     from mjcont.results.search import Equilibria
@@ -187,4 +188,21 @@ def draw_changes(found: Design, ax: Any) -> Any:
     axes.invert_yaxis()
     axes.margins(x=0.1)
     axes.set_xlabel("change, in the parameter's scale")
+    return axes
+
+
+def draw_controls(found: Hold, ax: Any) -> Any:
+    """Draw the controls that hold a pose, as parts of the largest, and return the axes."""
+    from mjcont.drawing.plotting import COLORS, new_figure
+
+    names = list(found.controls)
+    axes = new_figure(1, 1, (5.6, 0.9 + 0.42 * len(names)))[1] if ax is None else ax
+    size = max((abs(v) for v in found.controls.values()), default=0.0) or 1.0
+    axes.barh(range(len(names)), [v / size for v in found.controls.values()], color=COLORS[0], height=0.6)
+    axes.axvline(0.0, color="#333333", linewidth=0.8)
+    units = found.problem.parameters
+    axes.set_yticks(range(len(names)), [f"{n}: {show(found.controls[n], units[n].unit, 4)}" for n in names])
+    axes.invert_yaxis()
+    axes.margins(x=0.1)
+    axes.set_xlabel("control, of the largest")
     return axes

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 from problems.reference import PARAMETERS, equilibrium_at
-from scipy.optimize import root
+from scipy.optimize import brentq, root
 
 import mjcont as mc
 
@@ -218,6 +218,34 @@ def test_folds_whose_mean_is_not_the_weight_exclude_each_other():
     weights = np.array([1.0 / 12.0**2, 1.0 / 26.0**2])  # least squares of relative misses along upper + lower = 39.24
     best = (weights[0] * 12.0 + weights[1] * (39.24 - 26.0)) / weights.sum()
     assert upper == pytest.approx(best, rel=1e-4)
+
+
+def test_a_length_in_the_spec_is_designed_and_written(tmp_path):
+    """A rod on a spring leans where k hip = n m g (l / 2) sin(hip), its mass that of a capsule of its length."""
+    text = """<mujoco><worldbody><!-- a rod --><body name="rod">
+      <joint name="hip" type="hinge" axis="0 -1 0" stiffness="2"/>
+      <geom name="rod" type="capsule" fromto="0 0 0 0 0 0.4" size="0.01" density="3000"/></body></worldbody></mujoco>"""
+    rod = mc.Mechanism.from_xml(text)
+    rod.declare("length", "spec:geom:rod.fromto[5]", unit="m", bounds=(0.1, 1.0))
+    rest = mc.find_equilibrium(rod, {"load_factor": 4.0}, state=[1.0])
+    found = mc.design({"rest": rest}, {"length": (0.2, 0.8)}, "rest.hip == 60 deg")
+
+    def unbalanced(v):
+        mass = 3000.0 * math.pi * 0.01**2 * (v + 4.0 / 3.0 * 0.01)
+        return 2.0 * math.pi / 3.0 - 4.0 * mass * 9.81 * 0.5 * v * math.sin(math.pi / 3.0)
+
+    assert found["length"] == pytest.approx(brentq(unbalanced, 0.1, 1.0, xtol=1e-14), rel=1e-8)
+    written = found.to_xml(tmp_path / "rod.xml").read_text(encoding="utf-8")
+    assert written == text.replace("0 0 0 0 0 0.4", f"0 0 0 0 0 {found['length']!r}")
+
+
+@pytest.mark.slow
+def test_a_point_that_ceases_beside_the_target_ends_the_design_there():
+    """At 8 N/m both folds meet where the spring is longer and stiffer by a little."""
+    found = mc.design(overcentre_folds(8.0), SPRING, "LP2.F == 16.5 N")
+    assert found.status == "at the edge"
+    assert "LP2 ceases to exist near k_sp" in found.cuts[-1]
+    assert 16.5 < found.conditions[0].after < found.conditions[0].before
 
 
 def test_a_pose_of_a_rest_is_a_target():

@@ -272,6 +272,8 @@ class _Run:
         return equal | (np.abs(c) <= _ACTIVE)
 
     def _ended(self, v: Array, whole: bool) -> Ended:
+        low, high = self.program.low, self.program.high
+        v = np.where(v <= low + _ON_BOUND, low, np.where(v >= high - _ON_BOUND, high, v))  # not beside it by rounding
         c, gradient = self.values(v)
         missing = self._violation(c)
         met = bool(np.abs(missing).max(initial=0.0) <= self.tol)

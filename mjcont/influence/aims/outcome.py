@@ -7,16 +7,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mjcont.influence.aims.followed import Lost
 from mjcont.influence.aims.optimise import Ended
 from mjcont.influence.aims.program import Condition, Program
 from mjcont.numerics.equations.problem import Array
 from mjcont.results.choices.targets import Design, Outcome, in_size
-from mjcont.results.points import show
+from mjcont.results.points import Point, show
 from mjcont.results.units import displayed, sized
 
 # designs that differ by less (scaled) are one; a multiplier or a share of what is missing below this is none
 _SAME, _NOTHING = 1e-5, 1e-9
 _SHARE = 1e-3
+# what is missing by less is no conflict
+_ROUNDING = 1e-6
 
 
 def design_of(program: Program, ended: Sequence[Ended], tol: float, before: int) -> Design:
@@ -34,8 +37,7 @@ def design_of(program: Program, ended: Sequence[Ended], tol: float, before: int)
     conditions = _outcomes(program, end, missing[best], tol)
     status, message = _said(program, end, conditions, missing[best], at_bound, (same, len(ended)))
     today = np.zeros(len(names))
-    after, then = ({n: program.point(n, {}).located(program.point(n, {}).at(program.parameters(v)))
-                    for n in program.points} for v in (end.v, today))
+    after, then = _points(program, end.v), _points(program, today)
 
     def values(v: Array) -> dict[str, float]:
         return dict(zip(names, program.parameters(v).tolist(), strict=True))
@@ -49,6 +51,18 @@ def design_of(program: Program, ended: Sequence[Ended], tol: float, before: int)
         (same, len(ended)), tuple(dict.fromkeys(s for e in ended for s in e.cuts)), after, then,
         tuple(values(v) for v in end.path), next(iter(program.points.values())).model, program.evaluations - before,
     )
+
+
+def _points(program: Program, v: Array) -> dict[str, Point]:
+    """Return the points at a design; one that no condition names may not exist there."""
+    found = {}
+    for name in program.points:
+        try:
+            at = program.point(name, {})
+            found[name] = at.located(at.at(program.parameters(v)))
+        except Lost:
+            continue
+    return found
 
 
 def _outcomes(program: Program, end: Ended, missing: Array, tol: float) -> list[Outcome]:
@@ -111,7 +125,11 @@ def _said(
         lost = f": {end.cuts[-1]}" if end.cuts else ""
         return "at the edge" if lost else "not converged", (
             f"the conditions are met, but a design that changes less may exist (gradient {end.kkt:.1e}){lost}{ends}")
-    share = np.abs(missing) / max(float(np.abs(missing).max()), 1e-300)
+    most = float(np.abs(missing).max())
+    if most <= _ROUNDING:
+        why = "stiff connections round forces, or tol is too small"
+        return "not converged", f"the conditions hold to {most:.0e} of their values only: {why}{ends}"
+    share = np.abs(missing) / most
     left = [c for c, s in zip(conditions, share, strict=True) if s > _SHARE]
     said = " and ".join(dict.fromkeys(str(c) for c in left))
     reached = ", ".join(dict.fromkeys(f"{c.name} = {show(c.after, c.unit)}" for c in left))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -59,6 +60,12 @@ class Hold(Tabular, Shown):
     def stability(self) -> str:
         """The equilibrium's stability, empty where there is none."""
         return self.point.stability if self.point is not None else ""
+
+    def plot(self, *, ax: Any = None) -> Any:
+        """Draw the controls, each in the unit of its own, beside those without ranges; return the axes."""
+        from mjcont.drawing.charts import draw_controls
+
+        return draw_controls(self, ax)
 
     def _cells(self, degrees: bool) -> Iterable[Cells]:
         del degrees

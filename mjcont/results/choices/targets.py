@@ -79,7 +79,7 @@ class Design(Tabular, Shown):
         Largest component of the gradient of the Lagrangian, projected on the bounds: zero at a best design.
     starts : number of starts that end at this design, and number of starts.
     cuts : sentences on where points ceased to exist, so that steps were cut.
-    points, points_before : mapping of name to Point, at the new design and at today's.
+    points, points_before : mapping of name to Point, at the new design and at today's, as far as they exist there.
     path : parameters at each box in which the optimiser worked.
     problem : the Mechanism or VectorField.
     evaluations : int
