@@ -14,7 +14,7 @@ import numpy as np
 
 from mjcont.curves.collect import make_point
 from mjcont.errors import MjcontError
-from mjcont.influence.critical import Solution, Walk, called, located_point, point_system
+from mjcont.influence.critical import Solution, Walk, located_point
 from mjcont.influence.sensitivities import Quantity, quantity_at
 from mjcont.mechanism.energy import potential_energy
 from mjcont.numerics.equations.adjoint import Adjoint
@@ -84,6 +84,12 @@ class Followed:
         s, values = like.solution[0], dict(zip(self.names, p.tolist(), strict=True))
         return System(s.problem, {**s.base, **values}, s.free, s.conditions, True)
 
+    @staticmethod
+    def _renew(solved: Solved) -> None:
+        """Give the conditions, which solutions share, the borders of one solution."""
+        system, x, y = solved.solution
+        system.update(system.local(x, y), y)
+
     def _predicted(self, near: Solved, p: Array) -> Solved | None:
         """Return the point if a Newton step from a design nearby, predicted, leads where it was said to."""
         if near.moves is None or near.adjoint is None:
@@ -92,6 +98,7 @@ class Followed:
         size = float(np.linalg.norm(step))
         if not size <= _REACH:
             return None
+        self._renew(near)
         system = self._system(near, p)
         x, y = system.move(near.solution[1], near.solution[2], step)
         with np.errstate(all="ignore"):
@@ -101,10 +108,10 @@ class Followed:
                 found = (c.x, c.y) if c.failure is None and np.all(np.isfinite(c.y)) else None
         if found is None or not float(np.linalg.norm(system.difference(*found, x, y))) <= _AGREE * size + _CLOSE:
             return None
-        system.update(system.local(*found), found[1])
         return Solved(p.copy(), (system, *found), None)
 
     def _walked(self, near: Solved, p: Array) -> Solved:
+        self._renew(near)
         start, aim = (dict(zip(self.names, q.tolist(), strict=True)) for q in (near.p, p))
         walk = Walk(self.point, start, aim, near.solution)
         status, message = walk.run(_SHORTEST, _STEPS)
@@ -187,15 +194,3 @@ def _by_chords(system: System, near: Adjoint, x: Array, y: Array) -> tuple[Array
         last = size
     return None
 
-
-def followed(point: Point, names: Sequence[str], load: Mapping[str, float]) -> Followed:
-    """Return a point that follows a design, checked to have a defining system.
-
-    Raises
-    ------
-    Lost
-        If it does not exist in the load case.
-    """
-    point_system(point)
-    called(point)
-    return Followed(point, names, load)

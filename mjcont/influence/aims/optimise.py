@@ -91,7 +91,7 @@ class _Run:
 
     def _watch(self, v: Array, c: Array) -> None:
         """Note the design that misses least; end a run that tries one after the other without coming nearer."""
-        missing = float(np.abs(self._violation(c)).max(initial=0.0))
+        missing = float(np.abs(self.program.missing(c)).max(initial=0.0))
         if self._place is not None and np.abs(v - self._place).max() <= self._close * max(1.0, float(np.abs(v).max())):
             self._stays += 1
             if missing < self._least[0]:
@@ -193,7 +193,7 @@ class _Run:
         """Return the gradient of the Lagrangian left over (its size, multipliers, active, free and itself)."""
         c, gradient = self.values(v)
         slope = self.program.objective_at(v)[1]
-        equal = np.array([k.equal for k in self.program.conditions], dtype=bool)
+        equal = self.program.equal
         near = equal | (c <= _NEAR)
         below, above = v <= low + _ON_BOUND, v >= high - _ON_BOUND
         found = _multipliers(gradient[near], equal[near], below, above, slope)
@@ -205,14 +205,10 @@ class _Run:
 
     def _missing(self, v: Array) -> float:
         c, _ = self.values(v)
-        return float(np.abs(self._violation(c)).max(initial=0.0))
-
-    def _violation(self, c: Array) -> Array:
-        equal = np.array([k.equal for k in self.program.conditions], dtype=bool)
-        return np.where(equal, c, np.minimum(c, 0.0))
+        return float(np.abs(self.program.missing(c)).max(initial=0.0))
 
     def _slsqp(self, v: Array, low: Array, high: Array, accuracy: float) -> Array:
-        equal = np.array([k.equal for k in self.program.conditions], dtype=bool)
+        equal = self.program.equal
         constraints = [
             {"type": kind, "fun": lambda w, m=mask: self.values(w)[0][m], "jac": lambda w, m=mask: self.values(w)[1][m]}
             for kind, mask in (("eq", equal), ("ineq", ~equal)) if mask.any()
@@ -236,14 +232,14 @@ class _Run:
         """Return the design that misses the conditions least."""
         def missed(w: Array) -> Array:
             try:
-                return self._violation(self.values(w)[0])
+                return self.program.missing(self.values(w)[0])
             except Lost as lost:
                 self._said(f"a step was cut: {lost}")
                 return np.full(len(self.program.conditions), np.inf)
 
         def slopes(w: Array) -> Array:
             c, gradient = self.values(w)
-            return np.where(self._violation(c)[:, None] != 0.0, gradient, 0.0)
+            return np.where(self.program.missing(c)[:, None] != 0.0, gradient, 0.0)
 
         inside = np.clip(v, low, np.nextafter(high, low))
         found = least_squares(missed, inside, slopes, bounds=(low, high), xtol=_SETTLED, ftol=_SETTLED,
@@ -268,18 +264,18 @@ class _Run:
         return v
 
     def _active(self, c: Array) -> Array:
-        equal = np.array([k.equal for k in self.program.conditions], dtype=bool)
+        equal = self.program.equal
         return equal | (np.abs(c) <= _ACTIVE)
 
     def _ended(self, v: Array, whole: bool) -> Ended:
         low, high = self.program.low, self.program.high
         v = np.where(v <= low + _ON_BOUND, low, np.where(v >= high - _ON_BOUND, high, v))  # not beside it by rounding
         c, gradient = self.values(v)
-        missing = self._violation(c)
+        missing = self.program.missing(c)
         met = bool(np.abs(missing).max(initial=0.0) <= self.tol)
         slope = self.program.objective_at(v)[1] if met else gradient.T @ missing
         below, above = v <= self.program.low + _ON_BOUND, v >= self.program.high - _ON_BOUND
-        equal = np.array([k.equal for k in self.program.conditions], dtype=bool)
+        equal = self.program.equal
         kept = self._active(c) & met
         multipliers = np.zeros(len(c))
         multipliers[kept], bounds, left = _multipliers(gradient[kept], equal[kept], below, above, slope)

@@ -24,7 +24,7 @@ _ROUNDING = 1e-6
 
 def design_of(program: Program, ended: Sequence[Ended], tol: float, before: int) -> Design:
     """Return the best of some ends as a result."""
-    missing = [program.violation(e.v) for e in ended]
+    missing = [program.missing(program.values(e.v)[0]) for e in ended]
     objectives = [program.objective_at(e.v)[0] for e in ended]
     order = sorted(range(len(ended)), key=lambda i: (not ended[i].met, objectives[i] if ended[i].met else float(
         missing[i] @ missing[i])))

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mjcont.errors import MjcontError, ParameterError
-from mjcont.influence.aims.followed import Followed, Lost, followed
+from mjcont.errors import ParameterError
+from mjcont.influence.aims.followed import Followed
 from mjcont.influence.aims.statements import BARRIER, Statement
 from mjcont.motion.barriers import energy_barrier
 from mjcont.numerics.equations.problem import Array
@@ -85,7 +85,7 @@ class Program:
         """Return a point that follows the design in a load case."""
         key = name, tuple(load.items())
         if key not in self._followed:
-            self._followed[key] = followed(self.points[name], self.names, load)
+            self._followed[key] = Followed(self.points[name], self.names, load)
         return self._followed[key]
 
     def _read(self, name: str, quantity: str, load: Mapping[str, float], p: Array) -> tuple[float, Array]:
@@ -105,7 +105,7 @@ class Program:
             barrier = energy_barrier(at.located(at.known[0]))
             if barrier.saddle is None:
                 raise ParameterError(f"{name} has no barrier: {barrier.message}")
-            self._followed[key] = followed(barrier.saddle, self.names, {})
+            self._followed[key] = Followed(barrier.saddle, self.names, {})
         return self._followed[key]
 
     def value(self, c: Condition, v: Array) -> tuple[float, Array]:
@@ -148,15 +148,17 @@ class Program:
         given = dict(zip(self.names, (self.today + v * self.scales).tolist(), strict=True))
         return finite("the objective", self.objective(given))
 
-    def violation(self, v: Array) -> Array:
-        """Return by how much each condition is not met, with its sign, (m,)."""
-        c, _ = self.values(v)
-        return np.where([k.equal for k in self.conditions], c, np.minimum(c, 0.0))
+    @property
+    def equal(self) -> Array:
+        """Which conditions are targets, (m,) of bool."""
+        return np.array([c.equal for c in self.conditions], dtype=bool)
+
+    def missing(self, c: Array) -> Array:
+        """Return by how much conditions of values (m,) are not met, with its sign, (m,)."""
+        return np.where(self.equal, c, np.minimum(c, 0.0))
 
     @property
     def evaluations(self) -> int:
         """Evaluations of the forces so far."""
         return int(next(iter(self.points.values())).model.evaluations)
 
-
-__all__ = ["Condition", "Lost", "MjcontError", "Program"]
