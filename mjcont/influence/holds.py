@@ -43,6 +43,8 @@ _LEFT, _ROUNDING = 1e-7, 1e-12
 _BALANCED = 1e-8
 # singular values below this part of the largest: a motion that nothing resists
 _FREE = 1e-11
+# a control that changes forces by less than this part of what others do is saturated; values of it that are tried
+_IDLE, _GRID = 1e-12, 25
 # weight of a control's size beside what it makes yield
 _SLIGHT = 1e-6
 # a control without a range of its own: MuJoCo's largest number
@@ -94,6 +96,7 @@ def hold(
     problem, _ = hold_rigid_modes(mechanism, x0, {**values, **dict(zip(names, first.tolist(), strict=True))})
     kept = _named(problem, wanted, values) if wanted else _coordinates(problem, x0, values)
     run = _Run(problem, values, names, low, high, kept)
+    first = run.unsaturated(x0, first)
     found = run.solve(x0, first)
     if found.carried < 1.0 and len(names) > 1:
         run.gentle = True
@@ -205,6 +208,20 @@ class _Run:
     def values(self, u: Array) -> dict[str, float]:
         """Return all parameter values with the controls' in their places."""
         return {**self.values_given, **dict(zip(self.names, u.tolist(), strict=True))}
+
+    def unsaturated(self, x: Array, u: Array) -> Array:
+        """Return controls to begin with: of one that changes nothing where it is, a value at which it does."""
+        acting = np.abs(self._local(x, u).par).max(axis=0, initial=0.0)
+        found = u.copy()
+        for i in np.flatnonzero(acting <= _IDLE * acting.max(initial=1.0)):
+            if not np.isfinite([self.low[i], self.high[i]]).all():
+                continue
+            grid = np.linspace(self.low[i], self.high[i], _GRID)
+            rows = [self.problem.residual(x, self.values(np.where(np.arange(len(u)) == i, g, u))) for g in grid]
+            changes = np.linalg.norm(np.diff(rows, axis=0), axis=1)
+            k = int(np.argmax(changes))
+            found[i] = 0.5 * (grid[k] + grid[k + 1]) if changes[k] > 0.0 else u[i]
+        return found
 
     def solve(self, x: Array, u: Array) -> _Found:
         """Return the state and controls near a pose, whose load is put on in steps where it is too much for one."""

@@ -137,6 +137,7 @@ def test_points_and_diagrams_are_there_before_and_after():
     assert [b.point("LP1")["la"] for b in (before, after)] == pytest.approx([0.83, 0.5], rel=1e-8)
 
 
+@pytest.mark.slow
 def test_a_design_is_drawn_and_is_a_table(tmp_path):
     found = hill_design("LP1.la == 0.5")
     assert found.plot().get_xlabel() == "change, in the parameter's scale"

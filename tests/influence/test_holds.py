@@ -46,6 +46,14 @@ def test_a_control_at_its_limit_leaves_the_rest_to_others(pendulum):
     assert abs(found.controls["weak"]) == pytest.approx(GRAVITY * math.sin(0.3) - 1.5, rel=1e-10)
 
 
+def test_a_servo_that_is_saturated_where_it_begins_is_found(pendulum):
+    """At a control of 0 the servo of 20 N m/rad is beyond its 5 N m: none is lost by a little more control."""
+    servo = '<position name="servo" joint="hip" kp="20" forcerange="-5 5" ctrlrange="-3 3"/>'
+    found = mc.hold(pendulum(servo), [0.3])
+    assert found.held
+    assert abs(found.controls["servo"] - 0.3) == pytest.approx(GRAVITY * math.sin(0.3) / 20.0, rel=1e-9)
+
+
 def test_a_range_that_is_too_small_is_named_with_what_is_left(pendulum):
     found = mc.hold(pendulum(MOTOR.format('ctrllimited="true" ctrlrange="-1 1"')), [0.3])
     assert (found.status, found.point) == ("beyond range", None)

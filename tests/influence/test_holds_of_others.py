@@ -15,6 +15,7 @@ if any(not unpacked(p).is_dir() for p in WHEELS):
 
 SOURCE = unpacked("playground") / "mujoco_playground" / "_src"
 SPOT = SOURCE / "locomotion" / "spot" / "xmls" / "scene_mjx_feetonly_flat_terrain.xml"
+GO1 = SOURCE / "locomotion" / "go1" / "xmls" / "scene_mjx_feetonly_flat_terrain.xml"
 HAND = SOURCE / "manipulation" / "leap_hand" / "xmls" / "leap_rh_mjx.xml"
 ALOHA = SOURCE / "manipulation" / "aloha" / "xmls" / "mjx_aloha.xml"
 ACROBOT = SOURCE / "dm_control_suite" / "xmls" / "acrobot.xml"
@@ -24,8 +25,8 @@ BENT = {"waist": 0.3, "shoulder": -0.5, "elbow": 0.6, "forearm_roll": 0.2, "wris
 @pytest.mark.filterwarnings("ignore::mjcont.errors.ModelWarning")
 @pytest.mark.parametrize(
     ("path", "pose"),
-    [(SPOT, "home"), (HAND, None), (ALOHA, {f"left/{n}": v for n, v in BENT.items()})],
-    ids=["on four feet", "a hand", "an arm whose fingers are free"],
+    [(SPOT, "home"), (GO1, "home"), (HAND, None), (ALOHA, {f"left/{n}": v for n, v in BENT.items()})],
+    ids=["on four feet", "on four feet, saturated at first", "a hand", "an arm whose fingers are free"],
 )
 def test_the_controls_found_are_what_inverse_dynamics_ask_for(path, pose):
     mechanism = mc.Mechanism.from_xml(path)
