@@ -84,6 +84,13 @@ def test_a_mass_that_follows_from_geoms_is_refused_with_what_to_declare_instead(
         rewritten(rod, {"body:rod.mass": 9.0})
 
 
+def test_a_place_inside_a_frame_is_refused_with_what_to_declare_instead():
+    mechanism = mc.Mechanism.from_xml("overcentre")
+    mechanism.parameter("site:B_1.pos[0]")
+    with pytest.raises(mc.ModelError, match=r"its site_pos differs .*declare them as in spec:site:NAME.pos"):
+        rewritten(mechanism, {"site:B_1.pos[0]": 0.27})
+
+
 def test_a_function_of_the_spec_is_refused():
     mechanism = mc.Mechanism.from_xml("overcentre")
 

@@ -31,6 +31,8 @@ _OBJECTS = {
 _ATTRIBUTES = {"tendon_lengthspring": "springlength", "dof_frictionloss": "frictionloss"}
 _GENERAL = ("actuator_gainprm", "actuator_biasprm")
 _SAME = 1e-9
+# ends of the names of fields that MuJoCo computes from others
+_DERIVED = ("acc0", "length0", "invweight0", "subtreemass", "lengthrange", "rbound", "M0")
 
 
 def rewritten(mechanism: Any, values: Mapping[str, float], source: str | Path | None = None) -> str:
@@ -182,12 +184,21 @@ def _check(
     spec, _ = loading.parse_present(text, folder, mechanism.name)
     new, meant = loading.compile_spec(spec), mechanism.simulation_model()
     mechanism.writer(meant).write(mechanism.parameters, wanted)
+    differing = [f for f in acting_fields() if not _alike(f, new, meant)]
+    if not differing:
+        return
+    stated = [f for f in differing if not f.endswith(_DERIVED)] or differing
+    placed = any(t.field.endswith(("_pos", "_quat")) for p in changed for t in p.targets)
+    hint = "; inside a <frame> places count from the frame: declare them as in spec:site:NAME.pos[0]" if placed else ""
     names = ", ".join(p.name for p in changed)
-    for field in acting_fields():
-        a, b = (np.ravel(getattr(m, field)) for m in (new, meant))
-        if "simple" in field:  # how matrices are laid out, no part of what the model is
-            continue
-        floor = _SAME * max(1.0, float(np.abs(b).max(initial=0)))
-        if a.shape != b.shape or not np.allclose(a, b, rtol=_SAME, atol=floor):
-            raise ModelError(f"the MJCF with {names} written into it is another model than the one that is meant: its "
-                             f"{field} differs (something else in the text decides there)")
+    raise ModelError(f"the MJCF with {names} written into it is another model than the one that is meant: "
+                     f"its {stated[0]} differs (something else in the text decides there{hint})")
+
+
+def _alike(field: str, a: mujoco.MjModel, b: mujoco.MjModel) -> bool:
+    """Whether a field is the same in two models but for rounding; how matrices are laid out does not count."""
+    if "simple" in field:
+        return True
+    x, y = (np.ravel(getattr(m, field)) for m in (a, b))
+    floor = _SAME * max(1.0, float(np.abs(y).max(initial=0)))
+    return x.shape == y.shape and bool(np.allclose(x, y, rtol=_SAME, atol=floor))
