@@ -45,8 +45,10 @@ if TYPE_CHECKING:
     from mjcont.explorer.page import to_html
     from mjcont.influence.critical import follow_point
     from mjcont.influence.extremes import worst_case
+    from mjcont.influence.holds import hold
     from mjcont.influence.maps import special_map
     from mjcont.influence.sensitivities import sensitivities
+    from mjcont.influence.targets import design
     from mjcont.mechanism.mechanism import Mechanism
     from mjcont.models.bushes import add_bushes, bushed_xml, set_constraint_stiffness
     from mjcont.models.equalities import ConstraintStiffness, constraint_stiffness
@@ -66,6 +68,8 @@ if TYPE_CHECKING:
     from mjcont.results.barriers import Barrier, BarrierCurve, BarrierMap
     from mjcont.results.branch import Branch, Diagram
     from mjcont.results.certificates import Certificate
+    from mjcont.results.choices.holds import Hold
+    from mjcont.results.choices.targets import Design, Outcome
     from mjcont.results.formats import load
     from mjcont.results.histories import History
     from mjcont.results.linear import Mode, Modes, Transfer
@@ -99,8 +103,10 @@ _HOMES = {
     "mjcont.explorer.page": ("to_html",),
     "mjcont.influence.critical": ("follow_point",),
     "mjcont.influence.extremes": ("worst_case",),
+    "mjcont.influence.holds": ("hold",),
     "mjcont.influence.maps": ("special_map",),
     "mjcont.influence.sensitivities": ("sensitivities",),
+    "mjcont.influence.targets": ("design",),
     "mjcont.mechanism.mechanism": ("Mechanism",),
     "mjcont.models.bushes": ("add_bushes", "bushed_xml", "set_constraint_stiffness"),
     "mjcont.models.equalities": ("ConstraintStiffness", "constraint_stiffness"),
@@ -117,6 +123,8 @@ _HOMES = {
     "mjcont.results.barriers": ("Barrier", "BarrierCurve", "BarrierMap"),
     "mjcont.results.branch": ("Branch", "Diagram"),
     "mjcont.results.certificates": ("Certificate",),
+    "mjcont.results.choices.holds": ("Hold",),
+    "mjcont.results.choices.targets": ("Design", "Outcome"),
     "mjcont.results.formats": ("load",),
     "mjcont.results.histories": ("History",),
     "mjcont.results.loadpaths": ("Delay", "Jump", "LoadPath", "Segment"),
@@ -147,6 +155,7 @@ __all__ = [
     "ConstraintStiffness",
     "CycleBranch",
     "Delay",
+    "Design",
     "Diagram",
     "Equilibria",
     "Equilibrium",
@@ -154,6 +163,7 @@ __all__ = [
     "FunctionError",
     "Harmonic",
     "History",
+    "Hold",
     "Jump",
     "LoadPath",
     "Mechanism",
@@ -164,6 +174,7 @@ __all__ = [
     "Modes",
     "NameLookupError",
     "Orbit",
+    "Outcome",
     "ParameterError",
     "Point",
     "RangeWarning",
@@ -196,6 +207,7 @@ __all__ = [
     "continue_modes",
     "continue_response",
     "continue_special",
+    "design",
     "draw",
     "draw_poses",
     "energy_barrier",
@@ -205,6 +217,7 @@ __all__ = [
     "find_equilibria",
     "find_equilibrium",
     "follow_point",
+    "hold",
     "iterate_equilibria",
     "load",
     "load_path",

@@ -16,6 +16,8 @@ from mjcont.results.points import Column, SpecialPoint, show
 
 if TYPE_CHECKING:
     from mjcont.results.certificates import Certificate
+    from mjcont.results.choices.holds import Hold
+    from mjcont.results.choices.targets import Design
     from mjcont.results.histories import History
     from mjcont.results.search import Equilibria
     from mjcont.results.sensitivities import Sensitivities
@@ -170,4 +172,39 @@ def draw_certificate(found: Certificate, ax: Any) -> Any:
     axes.axhline(0.0, color="#333333", linewidth=0.8)
     label_axes(axes, (name, unit), ("rate", "1/s"))
     axes.legend(loc="best", fontsize=7.5)
+    return axes
+
+
+def draw_changes(found: Design, ax: Any) -> Any:
+    """Draw every parameter's change in its scale, with its old and new value, and return the axes."""
+    from mjcont.drawing.plotting import COLORS, new_figure
+
+    names = list(found.parameters)
+    axes = new_figure(1, 1, (5.6, 0.9 + 0.42 * len(names)))[1] if ax is None else ax
+    changes = np.array([(found.parameters[n] - found.before[n]) / found.scales[n] for n in names])
+    axes.barh(range(len(names)), changes, color=[COLORS[0] if c >= 0 else COLORS[1] for c in changes], height=0.6)
+    axes.axvline(0.0, color="#333333", linewidth=0.8)
+    units = [found.problem.parameters[n].unit for n in names]
+    old, new = ([show(v[n], u, 4) for n, u in zip(names, units, strict=True)] for v in (found.before, found.parameters))
+    axes.set_yticks(range(len(names)), [f"{n}: {a} to {b}" for n, a, b in zip(names, old, new, strict=True)])
+    axes.invert_yaxis()
+    axes.margins(x=0.1)
+    axes.set_xlabel("change, in the parameter's scale")
+    return axes
+
+
+def draw_controls(found: Hold, ax: Any) -> Any:
+    """Draw the controls that hold a pose, as parts of the largest, and return the axes."""
+    from mjcont.drawing.plotting import COLORS, new_figure
+
+    names = list(found.controls)
+    axes = new_figure(1, 1, (5.6, 0.9 + 0.42 * len(names)))[1] if ax is None else ax
+    size = max((abs(v) for v in found.controls.values()), default=0.0) or 1.0
+    axes.barh(range(len(names)), [v / size for v in found.controls.values()], color=COLORS[0], height=0.6)
+    axes.axvline(0.0, color="#333333", linewidth=0.8)
+    units = found.problem.parameters
+    axes.set_yticks(range(len(names)), [f"{n}: {show(found.controls[n], units[n].unit, 4)}" for n in names])
+    axes.invert_yaxis()
+    axes.margins(x=0.1)
+    axes.set_xlabel("control, of the largest")
     return axes

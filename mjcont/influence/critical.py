@@ -33,6 +33,8 @@ from mjcont.results.maps import FollowedPoint
 from mjcont.results.orbits import OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point, SpecialPoint, show
 
+# a system, and the state and y that solve it
+Solution = tuple[System, Array, Array]
 SUPPORTED = (*CONTINUABLE, "UZ")
 _REACH = 0.3  # longest predicted step, scaled
 _SHORTEST = 1e-4  # of the way
@@ -155,8 +157,13 @@ def check_not_own(point: Point, name: str) -> None:
     """Raise a ParameterError if the point's defining system solves for a parameter."""
     point.model.parameter(name)
     if name in point_names(point):
-        label = point.label if isinstance(point, SpecialPoint) else "the point"
-        raise ParameterError(f"{name} is free at {label}, whose defining system solves for it: name other parameters")
+        what = f"{name} is free at {called(point)}, whose defining system solves for it"
+        raise ParameterError(f"{what}: name other parameters")
+
+
+def called(point: Point) -> str:
+    """Return what sentences call a point."""
+    return point.label if isinstance(point, SpecialPoint) and point.label else "the point"
 
 
 def point_names(point: Point) -> tuple[str, ...]:
@@ -210,7 +217,7 @@ def follow_point(
     targets = check_targets(point, values)
     start = {n: point.model.values(point.parameters)[n] for n in targets}
     before = point.model.evaluations
-    walk = _Walk(point, start, targets)
+    walk = Walk(point, start, targets)
     status, message = walk.run(shortest, most)
     moved = walk.point if walk.t > 0.0 else point
     return FollowedPoint(
@@ -218,13 +225,22 @@ def follow_point(
     )
 
 
-class _Walk:
-    """A special point on its way from one set of parameter values to another, at the fraction t."""
+class Walk:
+    """A point on its way from one set of parameter values to another, at the fraction t.
 
-    def __init__(self, point: SpecialPoint, start: Mapping[str, float], targets: Mapping[str, float]) -> None:
+    `solution` is where its defining system is solved at the start, by default the point itself.
+    """
+
+    def __init__(
+        self, point: Point, start: Mapping[str, float], targets: Mapping[str, float], solution: Solution | None = None
+    ) -> None:
         self.like, self.start, self.targets = point, dict(start), dict(targets)
-        self.system = point_system(point)
-        self.x, self.y, self.t = point.state, self.system.start_y(), 0.0
+        if solution is None:
+            system = point_system(point)
+            solution = system, point.state, system.start_y()
+        self.label, self.kind = called(point), point.kind if isinstance(point, SpecialPoint) else "rest"
+        self.system, self.x, self.y = solution
+        self.t = 0.0
         self.path: list[dict[str, float]] = []
         self.least, self.speed = math.inf, 0.0
         self.reason: Refused | None = None
@@ -233,7 +249,7 @@ class _Walk:
     @property
     def point(self) -> SpecialPoint:
         """The special point at t."""
-        assert self._c is not None
+        assert self._c is not None and isinstance(self.like, SpecialPoint)
         return located_point(self.like, self.system, self._c)
 
     def at(self, t: float) -> System:
@@ -241,6 +257,11 @@ class _Walk:
         s = self.system
         moved = {n: (1.0 - t) * a + t * self.targets[n] for n, a in self.start.items()}
         return System(s.problem, {**s.base, **moved}, s.free, s.conditions, accurate=True)
+
+    @property
+    def corrected(self) -> Corrected | None:
+        """The solution at t, None at the start."""
+        return self._c
 
     def _record(self) -> None:
         values = self.system.values(self.y)
@@ -260,7 +281,7 @@ class _Walk:
         self._record()
         tangent, sign = self._tangent(self.system, 0.0, self.x, self.y)
         if not np.all(np.isfinite(tangent)):
-            return "stuck", f"{self.like.label} could not be followed: its defining system is singular there"
+            return "stuck", f"{self.label} could not be followed: its defining system is singular there"
         dt, failed = 1.0, False
         for _ in range(most):
             self.speed = float(np.linalg.norm(tangent))
@@ -277,9 +298,9 @@ class _Walk:
             if bound:
                 return "at bound", bound
             if self.t >= 1.0 - 1e-12:
-                return "reached", f"{self.like.label} followed to {self._where()}"
+                return "reached", f"{self.label} followed to {self._where()}"
             dt, failed = dt if failed else 2.0 * dt, False
-        return "stuck", f"{self.like.label} was given up after {most} steps at {self._where()}"
+        return "stuck", f"{self.label} was given up after {most} steps at {self._where()}"
 
     def _step(self, dt: float, tangent: Array, sign: float) -> tuple[Array, float] | None:
         """Take a step if prediction, solution and the derivatives at both ends agree."""
@@ -321,7 +342,7 @@ class _Walk:
         for name, value in self.path[-1].items():
             p = self.like.model.parameters[name]
             if name in self.system.names and not p.hard_bounds[0] <= value <= p.hard_bounds[1]:
-                return f"{self.like.label} leaves the actuator's ctrlrange: {name} = {show(value, p.unit)}"
+                return f"{self.label} leaves the actuator's ctrlrange: {name} = {show(value, p.unit)}"
         return ""
 
     def _where(self) -> str:
@@ -329,8 +350,8 @@ class _Walk:
         return ", ".join(f"{n} = {show(self.path[-1][n], units[n].unit, 5)}" for n in self.targets)
 
     def _lost(self) -> tuple[str, str]:
-        label, where = self.like.label, self._where()
+        label, where = self.label, self._where()
         other = self.reason is not None and self.reason.why is Why.OTHER_BRANCH
         if self.speed > _STEEPER * self.least or other:
-            return "ceased", f"{label} ceases to exist near {where}: it meets another {self.like.kind} and both vanish"
+            return "ceased", f"{label} ceases to exist near {where}: it meets another {self.kind} and both vanish"
         return "stuck", f"{label} could not be followed beyond {where}: {self.reason or 'steps became too short'}"

@@ -73,7 +73,7 @@ def sensitivities(
     system = point_system(point)
     values, parameters_of = system.base, point.model.parameters
     adjoint = Adjoint(system, point.state, system.start_y())
-    targets = [_quantity(adjoint, name) for name in _names(point, system, quantities)]
+    targets = [quantity_at(adjoint, name) for name in _names(point, system, quantities)]
     weights = [adjoint.weights(q.gradient) for q in targets]
     unfolding = _unfolding(adjoint)
     conditions = any(np.any(w[system.n :]) for w in weights) or unfolding is not None
@@ -124,7 +124,7 @@ def _names(point: Point, system: System, wanted: str | Sequence[str] | None) -> 
 
 
 @dataclass(frozen=True, slots=True)
-class _Quantity:
+class Quantity:
     """A quantity at a point: its gradient in scaled (x, y), and its derivative in a parameter at a fixed state."""
 
     name: str
@@ -134,14 +134,15 @@ class _Quantity:
     direct: Callable[[str], float]
 
 
-def _quantity(adjoint: Adjoint, name: str) -> _Quantity:
+def quantity_at(adjoint: Adjoint, name: str) -> Quantity:
+    """Return a quantity at a solution: a parameter that it solves for, an observable, or "omega" at a Hopf point."""
     system, y = adjoint.system, adjoint.y
     gradient = np.zeros(system.n + system.k)
     if name in system.names:
         i = system.names.index(name)
         p = system.free[i]
         gradient[system.n + i] = p.slope(float(y[i]))
-        return _Quantity(name, p.value(float(y[i])), p.unit, gradient, lambda other: 0.0)
+        return Quantity(name, p.value(float(y[i])), p.unit, gradient, lambda other: 0.0)
     problem: Any = system.problem
     if name in problem.observables:
         return _observable(adjoint, name, gradient)
@@ -151,12 +152,12 @@ def _quantity(adjoint: Adjoint, name: str) -> _Quantity:
         if isinstance(c, Hopf):
             omega = math.sqrt(c.square(y[at : at + 1]))
             gradient[system.n + at] = math.cosh(float(y[at])) * c.rate**2 / (2.0 * omega)
-            return _Quantity(name, omega, "rad/s", gradient, lambda other: 0.0)
+            return Quantity(name, omega, "rad/s", gradient, lambda other: 0.0)
         at += len(c.aux)
     raise unknown_name("quantity", name, [*system.names, *problem.observables])
 
 
-def _observable(adjoint: Adjoint, name: str, gradient: Array) -> _Quantity:
+def _observable(adjoint: Adjoint, name: str, gradient: Array) -> Quantity:
     system, x, here = adjoint.system, adjoint.x, adjoint.local.values
     problem: Any = system.problem
 
@@ -174,7 +175,7 @@ def _observable(adjoint: Adjoint, name: str, gradient: Array) -> _Quantity:
     for i, p in enumerate(system.free):
         gradient[system.n + i] = along(p.name) * p.slope(float(adjoint.y[i]))
     value = float(problem.measure(x[None], here, [name])[0, 0])
-    return _Quantity(name, value, problem.observables[name].unit, gradient, along)
+    return Quantity(name, value, problem.observables[name].unit, gradient, along)
 
 
 def _breaks(adjoint: Adjoint, unfolding: Array, slope: Array, parameter: Parameter) -> bool:

@@ -14,6 +14,8 @@ from mjcont.models.quiet import Warned, quiet
 from mjcont.numerics.equations.problem import Array
 
 _CONTACT = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)
+_EQUALITY = int(mujoco.mjtConstraint.mjCNSTR_EQUALITY)
+_LIMITS = (int(mujoco.mjtConstraint.mjCNSTR_LIMIT_JOINT), int(mujoco.mjtConstraint.mjCNSTR_LIMIT_TENDON))
 
 
 class Rows:
@@ -164,6 +166,28 @@ class ConstrainedRows:
             return found
         mujoco.mj_fwdActuation(m, d)
         return found | self._kinks.names(m, codes_at(self._kinks, m, d))
+
+    def connections(self, x: Array, writer: FieldWriter) -> list[Array]:
+        """Return the gradients (nv,) of equalities, and of limits and contacts' distances that carry load at rest."""
+        self.active(x, writer)
+        m, d = self._model, self._data
+        rows = [[r] for r in range(d.nefc) if d.efc_type[r] == _EQUALITY or _stops(d, r)]
+        for first, dim in zip(d.contact.efc_address, d.contact.dim, strict=True):
+            elliptic = m.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC or dim == 1
+            own = [first] if elliptic else list(range(first, first + 2 * (dim - 1)))  # a pyramid's edges have its sum
+            rows += [own] if first >= 0 and np.any(d.efc_force[own] > 0.0) else []
+        found = []
+        for own in rows:
+            weights, gradient = np.zeros(d.nefc), np.zeros(m.nv)
+            weights[own] = 1.0 / len(own)
+            mujoco.mj_mulJacTVec(m, d, gradient, weights)
+            found.append(gradient)
+        return found
+
+
+def _stops(d: mujoco.MjData, r: int) -> bool:
+    """Whether a constraint's row is a limit that carries load."""
+    return bool(d.efc_type[r] in _LIMITS and d.efc_force[r] > 0.0)
 
 
 def _contact_friction(m: mujoco.MjModel, d: mujoco.MjData) -> Array:

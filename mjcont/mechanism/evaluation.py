@@ -10,6 +10,7 @@ import numpy as np
 from mjcont.mechanism.batches import ConstrainedRows, Rows
 from mjcont.mechanism.kinks import Kinks
 from mjcont.mechanism.writer import FieldWriter
+from mjcont.models.actuators import is_bush, pin_slides
 from mjcont.models.features import explicit_damping, linear_in_velocity
 from mjcont.models.quiet import Warned, quiet
 from mjcont.numerics.equations.clock import check
@@ -132,6 +133,17 @@ class Evaluator:
             return frozenset()
         self.forces(x[None])
         return self._kinks.names(self.model, self._rows(1).codes[0])
+
+    def connections(self, x: Array) -> Array:
+        """Return gradients (r, nv): of every bush, equality, and limit or contact that carries load at rest."""
+        m, data = self.model, self.position(x)
+        moments = np.zeros((m.nactuator, m.nv))
+        if m.nactuator:
+            where = data.moment_rownnz, data.moment_rowadr, data.moment_colind
+            mujoco.mju_sparse2dense(moments, data.actuator_moment, *where)
+        bushes = [i for i in range(m.nactuator) if is_bush(m, i)]
+        carrying = self._constrained.connections(x, self.writer) if self._constrained is not None else []
+        return np.vstack([moments[bushes], np.eye(m.nv)[pin_slides(m)], *carrying])
 
     def position(self, x: Array) -> mujoco.MjData:
         """Return data of our own with everything that depends on position computed."""

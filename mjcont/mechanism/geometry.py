@@ -289,6 +289,11 @@ def _fields() -> tuple[str, ...]:
     return tuple(f for f in every if isinstance(getattr(model, f), np.ndarray))
 
 
+def acting_fields() -> tuple[str, ...]:
+    """Return the names of the arrays of any model on which forces depend."""
+    return tuple(f for f in _fields() if f.startswith(_ACTING))
+
+
 @cache
 def _sizes() -> tuple[str, ...]:
     """Return the names of a model's sizes, those that a user knows first."""

@@ -31,7 +31,14 @@ from mjcont.mechanism.zeromodes.parts import Held
 from mjcont.models import features, loading
 from mjcont.models.actuators import bush_names
 from mjcont.models.manifold import Manifold
-from mjcont.models.states import checked_state, keyframes, model_name, state_labels, state_scale
+from mjcont.models.states import (
+    checked_state,
+    coordinate_labels,
+    keyframes,
+    model_name,
+    state_labels,
+    state_scale,
+)
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.model import Model
 from mjcont.results.quantities import Parameter, check_name, check_values, told_apart
@@ -344,6 +351,17 @@ class Mechanism(Shareable, Observed, Held, Model):
     def state_labels(self) -> list[tuple[str, str]]:
         """Name and unit of each entry of qpos."""
         return state_labels(self._core.model)
+
+    @property
+    def coordinates(self) -> list[tuple[str, str]]:
+        """Name and unit of each tangent coordinate, (nv,)."""
+        return coordinate_labels(self._core.model)
+
+    def connections(self, x: Array, values: Values) -> Array:
+        """Return gradients (r, nv) of what yields to carry load in a state: bushes, constraints, stops, contacts."""
+        core = self._core
+        core.writer.write(self.parameters, values)
+        return core.evaluator.connections(x)
 
     @property
     def bushes(self) -> list[str]:

@@ -75,6 +75,10 @@ class SpecTarget:
             holder = _holder(element, self.attr)
             setattr(holder, self.attr, float(array[0]) if np.ndim(getattr(holder, self.attr)) == 0 else array)
 
+    def arrays(self, spec: mujoco.MjSpec) -> list[np.ndarray]:
+        """Return the whole attribute of every element, in the XML's own units."""
+        return [self._array(element) for element in self._elements(spec)]
+
     def _elements(self, spec: mujoco.MjSpec) -> list[Any]:
         return [getattr(spec, self.kind)(name) for name in self.names]
 

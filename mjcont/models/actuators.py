@@ -6,6 +6,8 @@ import mujoco
 import numpy as np
 
 _DYN = mujoco.mjtDyn
+_JOINTS = (int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT))
+_TURNING = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_BALL))
 _FOLLOWS = (_DYN.mjDYN_FILTER, _DYN.mjDYN_FILTEREXACT, _DYN.mjDYN_MUSCLE)
 
 
@@ -46,6 +48,15 @@ def is_bush(model: mujoco.MjModel, actuator: int) -> bool:
     """Whether an actuator is a passive bush element: prefix `bush_` and no gain."""
     name = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_ACTUATOR, actuator) or ""
     return name.startswith("bush_") and not model.actuator_gainprm[actuator].any()
+
+
+def pin_slides(model: mujoco.MjModel) -> list[int]:
+    """Return the freedoms of elastic pins: slides with stiffness, beside a joint that turns, that nothing drives."""
+    driven = model.actuator_trnid[np.isin(model.actuator_trntype, _JOINTS), 0]
+    turning = model.jnt_bodyid[np.isin(model.jnt_type, _TURNING)]
+    slides = (model.jnt_type == int(mujoco.mjtJoint.mjJNT_SLIDE)) & (np.ravel(model.jnt_stiffness) > 0)
+    pins = slides & np.isin(model.jnt_bodyid, turning) & ~np.isin(np.arange(model.njnt), driven)
+    return [int(model.jnt_dofadr[j]) for j in np.flatnonzero(pins)]
 
 
 def bush_names(model: mujoco.MjModel) -> list[str]:

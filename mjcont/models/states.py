@@ -65,6 +65,19 @@ def state_labels(model: mujoco.MjModel) -> list[tuple[str, str]]:
     return labels
 
 
+def coordinate_labels(model: mujoco.MjModel) -> list[tuple[str, str]]:
+    """Return name and unit of each tangent coordinate, (nv,): where qpos has a quaternion, rotations about x, y, z."""
+    turns = [(f".r{c}", "rad") for c in "xyz"]
+    parts = {
+        _JOINT.mjJNT_SLIDE: [("", "m")],
+        _JOINT.mjJNT_HINGE: [("", "rad")],
+        _JOINT.mjJNT_BALL: turns,
+        _JOINT.mjJNT_FREE: [(f".{c}", "m") for c in "xyz"] + turns,
+    }
+    names = [element_name(model, mujoco.mjtObj.mjOBJ_JOINT, j) for j in range(model.njnt)]
+    return [(n + s, u) for n, kind in zip(names, model.jnt_type, strict=True) for s, u in parts[_JOINT(kind)]]
+
+
 def field_array(model: mujoco.MjModel, field: str) -> np.ndarray:
     """Return a model's (or its options') field by name."""
     owner = model.opt if field.startswith("opt.") else model

@@ -10,6 +10,8 @@ from html import escape
 from importlib import metadata
 from typing import Any, Protocol, Self
 
+import numpy as np
+
 from mjcont.errors import BoundsError, MjcontError, RangeWarning, unknown_name, warn
 from mjcont.numerics.equations.problem import Array, Equations, Values
 from mjcont.results.quantities import Observable, Parameter, check_name, column_of, finite_pair
@@ -17,7 +19,8 @@ from mjcont.results.quantities import Observable, Parameter, check_name, column_
 # what numerics and verbs ask of a model, and no user needs
 _ENGINE = frozenset(
     """
-    active admissible constrained declare_again difference_each failure first_order follows_scale held holding
+    active admissible connections constrained coordinates declare_again
+    difference_each failure first_order follows_scale held holding
     holds_straight linearize_along measure_along nonsmooth one_pattern own_jacobian parameter_stencil passive pencils
     periods pieces rescaled residuals residuals_along retract_each rigid_directions rigid_modes second_order
     side_by_side timed writer
@@ -72,6 +75,16 @@ class Model(Equations):
         """Return all observables for states (m, nq), parameters having values of their own in each (m,), by name."""
         rows = [{**values, **{n: float(column[i]) for n, column in driven.items()}} for i in range(len(states))]
         return self.measure(states, rows)
+
+    @property
+    def coordinates(self) -> list[tuple[str, str]]:
+        """Name and unit of each tangent coordinate, (n,)."""
+        return self.state_labels
+
+    def connections(self, x: Array, values: Values) -> Array:
+        """Return gradients (r, n), a row for everything that yields to carry load in a state, such as a bush."""
+        del x, values
+        return np.zeros((0, self.n))
 
     def rescaled(self, sizes: Array, *, grow: bool = False) -> Self | None:
         """Return this model with a scale that fits sizes of its state (n,); None where it fits or was given.

@@ -16,6 +16,7 @@ from mjcont.results.branch import Branch
 from mjcont.results.model import units
 from mjcont.results.points import show
 from mjcont.results.text import Tabular
+from mjcont.studies.choices.runs import design_files, run_design, run_hold
 from mjcont.studies.keys import Reference
 from mjcont.studies.plans import Task
 from mjcont.studies.reporter import Reporter
@@ -100,6 +101,8 @@ def task_line(mechanism: Any, plan: Task) -> str:
         "history": lambda: ", ".join([*([f"{g['duration']:g} s"] if g["duration"] else []),
                                       *(g["inputs"] or ["no inputs"])]),
         "worst case": lambda: f"{of}, " + ", ".join(span(n, b) for n, b in g["ranges"].items()),
+        "hold": lambda: g["pose"] if isinstance(g["pose"], str) else ", ".join(g["pose"]),
+        "design": lambda: ", ".join(g["targets"]),
         "map": lambda: f"{of}, " + ", ".join(f"{span(n, (a[0], a[-1]))} ({len(a)})" for n, a in g["grid"].items()),
     }
     return f"{plan.kind}: {details[plan.kind]() if plan.kind in details else of}"
@@ -254,6 +257,18 @@ def _map(plan: Task, at: Running) -> Outcome:
     return found, files
 
 
+def _hold(plan: Task, at: Running) -> Outcome:
+    found = run_hold(plan.given, at.mechanism)
+    return found, _table(found, plan, at)
+
+
+def _design(plan: Task, at: Running) -> Outcome:
+    points = {name: point_of(at.done, reference) for name, reference in plan.given["points"].items()}
+    found = run_design(plan.given, points, at.reporter.step)
+    files = design_files(found, plan.given, at.folder / plan.name, lambda axes: _drawn(axes, plan, at))
+    return found, [*_table(found, plan, at), *files]
+
+
 def _certificate(plan: Task, at: Running) -> Outcome:
     from mjcont.motion.certificates import verify_stability
 
@@ -299,7 +314,8 @@ def _transfer(plan: Task, at: Running) -> Outcome:
 
 _RUNS: Mapping[str, Callable[[Task, Running], Outcome]] = {
     "search": _search, "diagram": _diagram, "cycles": _cycles, "response": _response, "locus": _locus, "path": _path,
-    "history": _history, "sensitivity": _sensitivity, "worst case": _worst, "map": _map, "certificate": _certificate,
+    "history": _history, "sensitivity": _sensitivity, "worst case": _worst, "map": _map, "hold": _hold,
+    "design": _design, "certificate": _certificate,
     "barrier": _barrier, "modes": _modes, "transfer": _transfer,
     "nonlinear mode": _nonlinear,
 }

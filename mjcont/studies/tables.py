@@ -18,6 +18,7 @@ from mjcont.studies import forms as f
 from mjcont.studies import keys as k
 from mjcont.studies import references as r
 from mjcont.studies import values as v
+from mjcont.studies.choices.tables import DESIGN, HOLD
 from mjcont.studies.families import NONLINEAR
 from mjcont.studies.keys import Context, Key, Kind, takes
 from mjcont.studies.linear import MODES, TRANSFER
@@ -330,6 +331,7 @@ BARRIER = Kind("barriers", "The energy that dislodges a rest, along a branch (`b
 KINDS = {
     "search": SEARCH, "branch": BRANCH, "diagram": DIAGRAM, "cycles": CYCLES, "response": RESPONSES, "locus": LOCUS,
     "path": PATH, "history": HISTORY, "sensitivity": SENSITIVITY, "worst case": WORST, "map": MAP,
+    "hold": HOLD, "design": DESIGN,
     "certificate": CERTIFICATE, "barrier": BARRIER, "modes": MODES, "transfer": TRANSFER, FAMILY: NONLINEAR,
 }
 

@@ -40,11 +40,13 @@ def results(truss: mc.Branch) -> dict[str, Any]:
         "mode": mc.modes(rest)[0],
         "transfer": mc.transfer(rest, "P", "z", [0.5, 1.0, 2.0]),
         "barrier": mc.energy_barrier(truss.at(P=50.0)[0], truss),
+        "hold": mc.hold(truss.problem, {"z": 0.1}),
+        "design": mc.design(fold, {"k": (0.5 * k, 2.0 * k)}, f"LP1.P == {1.1 * fold['P']}"),
     }
 
 
 KINDS = ("branch", "point", "search", "map", "worst", "followed", "sensitivities", "path", "history", "certificate",
-         "barriers", "modes", "mode", "transfer", "barrier")
+         "barriers", "modes", "mode", "transfer", "barrier", "hold", "design")
 DRAWN = [k for k in KINDS if k not in ("point", "barrier")]
 TABLES = [k for k in DRAWN if k != "mode"]
 

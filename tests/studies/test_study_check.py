@@ -53,6 +53,14 @@ ranges = { k = [900, 1100] }
 name = "map"
 point = "equilibria:LP1"
 grid = { k = [900, 1100] }
+[[holds]]
+name = "held"
+pose = "unloaded"
+[[designs]]
+name = "better"
+points = { fold = "equilibria:LP1" }
+change = { k = [900, 1200] }
+targets = ["fold.P >= 50"]
 [[certificates]]
 name = "certified"
 branch = "ways_1"

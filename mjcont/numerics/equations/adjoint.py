@@ -67,9 +67,21 @@ class Adjoint:
         plain = self._plain_fold(gradient)
         if plain is not None:
             return plain
+        return self._factors().solve_transposed(gradient)
+
+    def moves(self, slopes: Array) -> Array:
+        """Return how the scaled (x, y) move with parameters whose slopes G_p (equations, m) are given, (n + k, m)."""
+        factors = self._factors()
+        return np.column_stack([-factors.solve(column) for column in slopes.T])
+
+    def correction(self, residual: Array) -> Array:
+        """Return the chord step -G_X^-1 G, (n + k,), for G (equations,) at a solution nearby."""
+        return -self._factors().solve(residual)
+
+    def _factors(self) -> Factored:
         if self._factored is None:
             self._factored = Factored(self._jacobian())
-        return self._factored.solve_transposed(gradient)
+        return self._factored
 
     def _plain_fold(self, gradient: Array) -> Array | None:
         """Return psi for the parameter of a fold, for which no second derivative is needed."""

@@ -1,0 +1,31 @@
+"""What computes `[[holds]]` and `[[designs]]`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+
+def run_hold(given: Mapping[str, Any], mechanism: Any) -> Any:
+    """Return the controls that hold a pose."""
+    from mjcont.influence.holds import hold
+
+    return hold(mechanism, given["pose"], controls=given["controls"] or None, start=given["start"],
+                keyframe=given["keyframe"])
+
+
+def run_design(given: Mapping[str, Any], points: Mapping[str, Any], progress: Callable[[float, float], None]) -> Any:
+    """Return the design that meets a table's targets."""
+    from mjcont.influence.targets import design
+
+    return design(
+        points, given["change"], given["targets"], objective=given["objective"], cases=given["cases"],
+        scales=given["scales"], starts=given["starts"] or None, tol=given["tol"], progress=progress,
+    )
+
+
+def design_files(found: Any, given: Mapping[str, Any], stem: Path, draw: Callable[[Any], Path]) -> list[Path]:
+    """Write and draw what a table asks for, and return the files."""
+    files = [draw(found.plot())] if given["png"] else []
+    return [*files, found.to_xml(stem.with_name(f"{stem.name}.xml"))] if given["xml"] else files
