@@ -112,7 +112,7 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
         coefficients, vectors = {k: v for k, v in coefficients.items() if k == "omega"}, {}
     p = make_point(like.model, c.x, values, like.kind)
     own = point_names(like)
-    free = {n: _around(like.model.parameters[n], b, values[n]) if n in own else b for n, b in like.free.items()}
+    free = {n: around(like.model.parameters[n], b, values[n]) if n in own else b for n, b in like.free.items()}
     return replace(
         like, parameters=p.parameters, observables=p.observables, state=p.state, eigenvalues=p.eigenvalues,
         n_unstable=p.n_unstable, stability=p.stability, tolerance=known_to(system, c), coefficients=coefficients,
@@ -120,7 +120,7 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
     )
 
 
-def _around(parameter: Any, bounds: tuple[float, float], value: float) -> tuple[float, float]:
+def around(parameter: Any, bounds: tuple[float, float], value: float) -> tuple[float, float]:
     """Return bounds that contain a value with room beside it: those given, or widened to that side."""
     (low, high), hard = bounds, parameter.hard_bounds
     room = 0.5 * (high - low)
@@ -129,6 +129,12 @@ def _around(parameter: Any, bounds: tuple[float, float], value: float) -> tuple[
     if value > high:
         high = min(value + room, hard[1])
     return low, high
+
+
+def within(parameter: Any, value: float) -> bool:
+    """Whether there is a model at a value that a parameter was solved for."""
+    low, high = parameter.hard_bounds
+    return bool(low <= value <= high)
 
 
 def check_targets(point: SpecialPoint, targets: Mapping[str, float]) -> dict[str, float]:
@@ -320,7 +326,7 @@ class _Walk:
     def _beyond(self) -> str:
         for name, value in self.path[-1].items():
             p = self.like.model.parameters[name]
-            if name in self.system.names and not p.hard_bounds[0] <= value <= p.hard_bounds[1]:
+            if name in self.system.names and not within(p, value):
                 return f"{self.like.label} leaves the actuator's ctrlrange: {name} = {show(value, p.unit)}"
         return ""
 
