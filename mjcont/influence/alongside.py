@@ -18,8 +18,8 @@ from mjcont.numerics.points.kinds import KINDS
 from mjcont.results.points import SpecialPoint
 
 _MOVED = ("LP", "CP")
-# states of all variants in one evaluation, at most, of about so many for each variant and degree of freedom
-_STATES, _PER_DEGREE = 2**14, 40
+# variants at a time, at most, and states of all in one evaluation, of so many for each and each degree of freedom
+_MOST, _STATES, _PER_DEGREE = 32, 2**14, 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,7 @@ class Fellows:
         self._problem, self._names = point.model, point_names(point)
         self._coefficient = KINDS[point.kind].coefficients[0]
         self._read = [c for c in columns if c not in point.parameters and c != self._coefficient]
-        self.most = max(1, _STATES // (_PER_DEGREE * self._problem.n))
+        self._most = max(1, min(_MOST, _STATES // (_PER_DEGREE * self._problem.n)))
 
     @classmethod
     def of(cls, point: SpecialPoint, columns: Sequence[str] = ()) -> Fellows | None:
@@ -69,10 +69,10 @@ class Fellows:
 
     def moved(self, starts: Sequence[Place], targets: Sequence[Values]) -> list[Place | None]:
         """Return where points come to at other parameter values; None for those that are to be moved alone."""
-        found: list[Place | None] = []
-        for first in range(0, len(starts), self.most):
-            found += self._bundle(starts[first : first + self.most], targets[first : first + self.most])
-        return found
+        for name in {name for t in targets for name in t}:
+            self._problem.parameter(name)  # a path becomes one
+        parts = [slice(first, first + self._most) for first in range(0, len(starts), self._most)]
+        return [place for part in parts for place in self._bundle(starts[part], targets[part])]
 
     def _bundle(self, starts: Sequence[Place], targets: Sequence[Values]) -> Iterator[Place | None]:
         """Yield what becomes of each of a few points."""

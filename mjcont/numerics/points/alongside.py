@@ -75,8 +75,7 @@ class _Move:
         self.bundle = bundle
         count = bundle.count
         firsts = np.unique(like)
-        defined = bundle.begin(firsts)
-        start = bundle.linear(firsts, False, bundle.x[firsts], bundle.y[firsts])
+        start, defined = bundle.begin(firsts)
         place = np.searchsorted(firsts, like)
         bundle.share(np.arange(count), like)
         self.start, self.alive = start.of(place), defined[place]
@@ -115,7 +114,7 @@ class _Move:
     def _newton(self, members: Array) -> None:
         """Take a Newton step, and corrections with its derivatives where it is short."""
         bundle = self.bundle
-        here = bundle.linear(members, True, self.x[members], self.y[members])
+        here = bundle.linear(members, self.x[members], self.y[members])
         self.last.put(members, here)
         sizes = self._step(members, -here.solved(here.value))
         self._leave(members, ~(sizes <= REACH))

@@ -72,12 +72,13 @@ class Linear:
 
 @dataclass(frozen=True, slots=True)
 class _About:
-    """f about states x (K, nq) of members of a bundle: there (K, n), with the free parameters `columns` (K, k)."""
+    """f about states x (K, nq) of members of a bundle, with coordinates y (K, k) of values `columns`: f there (K, n)."""
 
     bundle: Bundle
     members: Array
     ahead: bool
     x: Array
+    y: Array
     columns: Array
     f: Array
     jac: Array
@@ -140,7 +141,8 @@ class Bundle:
 
     def _slopes(self, members: Array, y: Array) -> Array:
         pairs = zip(members.tolist(), y.tolist(), strict=True)
-        return np.array([[p.slope(u) for p, u in zip(self.free[i], row, strict=True)] for i, row in pairs])
+        found = [[p.slope(u) for p, u in zip(self.free[i], row, strict=True)] for i, row in pairs]
+        return np.array(found).reshape(len(members), self.k)
 
     def moved(self, x: Array, y: Array, steps: Array) -> tuple[Array, Array]:
         """Return states and coordinates moved by scaled steps (K, n + k)."""
@@ -155,6 +157,8 @@ class Bundle:
     ) -> Array:
         """Return f (K, m, n) at states moved by tangent steps (K, m, n), and parameters by `shifts` (K, m, k)."""
         k, m = steps.shape[:2]
+        if not k:
+            return np.zeros((0, m, self.n))
         states = self.problem.retract_each(np.repeat(x, m, axis=0), steps.reshape(k * m, self.n)).reshape(k, m, -1)
         own = np.repeat(columns[:, None], m, axis=1)
         self.counts[members] += m
@@ -168,12 +172,12 @@ class Bundle:
         blocks = found[:, 1:].reshape(len(members), len(FOURTH_ORDER.offsets), self.n, self.n)
         slopes = weighted(np.array(FOURTH_ORDER.weights), blocks) / FOURTH_ORDER.step
         jac = np.ascontiguousarray(slopes.transpose(0, 2, 1))
-        return _About(self, members, ahead, x, columns, found[:, 0], jac)
+        return _About(self, members, ahead, x, y, columns, found[:, 0], jac)
 
     # -- what the equations are ------------------------------------------------------------------------------
 
-    def begin(self, members: Array) -> Array:
-        """Choose scales and borders at the points of members; return which have any, (K,) bool."""
+    def begin(self, members: Array) -> tuple[Linear, Array]:
+        """Choose scales and borders at the points of members; return G linearised there, and which have any, (K,) bool."""
         here, h = self._about(members, False, self.x[members], self.y[members]), self._steps[members]
         beside = here.shifted(np.zeros((len(members), self.k, self.n)), h[:, None] * np.eye(self.k))
         slopes = np.abs(beside - here.f[:, None]).max(axis=2) / np.abs(h)
@@ -186,8 +190,7 @@ class Bundle:
             v, w, _ = self._null(self._bordered(members, here.jac), members)
             v, w = v / self._scale, w / self._rows[members]
             self._weight[members] = dot(v, v) * np.sqrt(dot(w, w))
-        found: Array = top > VANISHES
-        return found
+        return self._linear(here), top > VANISHES
 
     def share(self, members: Array, like: Array) -> None:
         """Give members the scales and borders of others that lie on the same point, and what they cost."""
@@ -238,14 +241,18 @@ class Bundle:
 
     # -- linearised ------------------------------------------------------------------------------------------
 
-    def linear(self, members: Array, ahead: bool, x: Array, y: Array) -> Linear:
-        """Return G and its linearisation at states and coordinates of variants, those ahead or those before."""
-        here, n, along, size = self._about(members, ahead, x, y), self.n, self._along, self.n + self.k
+    def linear(self, members: Array, x: Array, y: Array) -> Linear:
+        """Return G and its linearisation at states and coordinates of variants ahead."""
+        return self._linear(self._about(members, True, x, y))
+
+    def _linear(self, here: _About) -> Linear:
+        members, n, along, size = here.members, self.n, self._along, self.n + self.k
         bordered = self._bordered(members, here.jac)
         v, w, g = self._null(bordered, members)
-        value, matrix, frozen = np.empty((len(x), size)), np.zeros((len(x), size, size)), np.empty((len(x), size))
+        value, frozen = np.empty((2, len(v), size))
+        matrix = np.zeros((len(v), size, size))
         value[:, :n], value[:, n], matrix[:, :n, :n] = here.f * self._rows[members], g, bordered[:, :n, :n]
-        found = Linear(x, y, value, matrix, frozen, v, w, np.zeros_like(v), np.zeros_like(v))
+        found = Linear(here.x, here.y, value, matrix, frozen, v, w, np.zeros_like(v), np.zeros_like(v))
         steps = along.along(v), along.mixed(v)
         beside, mixed, *more = here.at(*steps, *((along.aside(v), along.far(v)) if self.cusp else ()))
         second = along.curvature(here.f, beside, v)
