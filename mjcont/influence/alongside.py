@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mjcont.influence.critical import around, defining_kind, point_names, within
+from mjcont.influence.critical import around, point_names, within
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.points.alongside import move
@@ -61,8 +61,10 @@ class Fellows:
     @classmethod
     def of(cls, point: SpecialPoint, columns: Sequence[str] = ()) -> Fellows | None:
         """Return the fellows of a point; None where its variants are moved one after the other."""
+        if point.kind not in _MOVED or not point.converged:
+            return None
         problem, names = point.model, point_names(point)
-        if defining_kind(point) not in _MOVED or point.kind not in _MOVED or not problem.together(names):
+        if not problem.together(names):
             return None
         held = problem.rigid_modes(point.state, problem.values(point.parameters))
         return None if held else cls(point, columns)

@@ -27,6 +27,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points import normalform
+from mjcont.numerics.points.alongside import AGREE, CLOSE, REACH
 from mjcont.numerics.points.events import ScalarZero
 from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of, name_of
 from mjcont.results.maps import FollowedPoint
@@ -34,10 +35,7 @@ from mjcont.results.orbits import OrbitPoint, SpecialOrbit
 from mjcont.results.points import Point, SpecialPoint, show
 
 SUPPORTED = (*CONTINUABLE, "UZ")
-_REACH = 0.3  # longest predicted step, scaled
 _SHORTEST = 1e-4  # of the way
-_AGREE = 0.2
-_CLOSE = 1e-4
 _STEEPER = 3.0
 _NEWTON = 6
 
@@ -271,7 +269,7 @@ class _Walk:
         for _ in range(most):
             self.speed = float(np.linalg.norm(tangent))
             self.least = min(self.least, self.speed)
-            dt = min(dt, 1.0 - self.t, _REACH / self.speed if self.speed > 0 else 1.0)
+            dt = min(dt, 1.0 - self.t, REACH / self.speed if self.speed > 0 else 1.0)
             if dt < shortest:
                 return self._lost()
             done = self._step(dt, tangent, sign)
@@ -299,13 +297,13 @@ class _Walk:
                 return None
             moved = system.difference(c.x, c.y, self.x, self.y)
             size, off = np.linalg.norm(moved), np.linalg.norm(moved - dt * tangent)
-            if off > _AGREE * size + _CLOSE:
+            if off > AGREE * size + CLOSE:
                 self.reason = Refused(Why.OTHER_BRANCH, "the solution found is not the one predicted")
                 return None
             after, new_sign = self._tangent(system, t, c.x, c.y)
         bent = np.linalg.norm(moved - 0.5 * dt * (tangent + after))
         turned = new_sign * sign < 0 and not any(k.direction is not None for k in system.conditions)
-        if not bent <= 0.5 * _AGREE * size + _CLOSE or turned:
+        if not bent <= 0.5 * AGREE * size + CLOSE or turned:
             self.reason = Refused(Why.OTHER_BRANCH, "the solution found is not on the same curve")
             return None
         self.t, self.x, self.y, self.system, self._c = t, c.x, c.y, system, c

@@ -71,7 +71,7 @@ def test_cusps_come_to_where_their_closed_form_has_them_with_their_coefficient()
         x, la, mu = cusp(**target)
         np.testing.assert_allclose(found.x[i], x, atol=1e-9)
         np.testing.assert_allclose(found.values[i], [la, mu], atol=1e-12)
-        # on the null vector v = (1, 1) / sqrt(2), with w = (1, 5) sqrt(2) / 6 and f_xxx(v, v, v) = -6 r (1, 0) / sqrt(8)
+        # v = (1, 1) / sqrt(2), w = (1, 5) sqrt(2) / 6 and f_xxx(v, v, v) = -6 r (1, 0) / sqrt(8)
         assert found.coefficient[i] == pytest.approx(-target["r"] / 12.0, rel=1e-6)
 
 

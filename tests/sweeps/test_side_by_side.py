@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -107,7 +108,7 @@ def test_points_of_models_that_are_smooth_in_pieces_are_moved_one_by_one(tmp_pat
     clamp = mc.Mechanism.from_xml("toggle_clamp")
     branch = mc.continue_equilibria(clamp, "M", bounds=(-30.0, 30.0), start={"M": 20.0}, keyframe="closed")
     fold = branch.of_kind("LP")[0]
-    assert Fellows.of(fold) is None
+    assert Fellows.of(fold) is None  # its stop is a limit
     table = mc.sweep({"fold": fold}, {"k": [1.01 * fold["k"]]}, design="list", out=tmp_path, workers=1)
     assert table["fold.M"][0] == mc.follow_point(fold, {"k": 1.01 * fold["k"]}).point["M"]
 
@@ -120,3 +121,11 @@ def test_cases_that_settle_side_by_side_are_not_followed_alone(
 
     monkeypatch.setattr(jobs, "follow_point", refuse)
     assert not mc.sweep(study(tmp_path), out=tmp_path, limit=4, workers=1).failed
+
+
+def test_points_that_are_only_guessed_or_solve_for_a_field_are_not_moved_side_by_side() -> None:
+    truss = mc.Mechanism.from_xml("von_mises_truss")
+    fold = mc.continue_equilibria(truss, "P", bounds=(-50.0, 300.0)).point("LP1")
+    assert Fellows.of(fold) is not None
+    assert Fellows.of(replace(fold, converged=False)) is None
+    assert Fellows.of(replace(fold, free={"k": (1.0, 1e4)})) is None

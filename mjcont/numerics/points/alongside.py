@@ -16,6 +16,7 @@ from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array, Equations, Variants
 from mjcont.numerics.points.bundle import Bundle
 
+# longest predicted step, scaled; parts of a step, and a length, by which prediction and solution may differ
 REACH, AGREE, CLOSE = 0.3, 0.2, 1e-4
 _TOL, _NEWTON, _POLISH = 1e-12, 5, 3
 # a Newton step below which the last derivatives do, and a correction that leaves a point known

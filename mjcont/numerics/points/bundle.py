@@ -72,7 +72,7 @@ class Linear:
 
 @dataclass(frozen=True, slots=True)
 class _About:
-    """f about states x (K, nq) of members of a bundle, with coordinates y (K, k) of values `columns`: f there (K, n)."""
+    """f about states x (K, nq) of members of a bundle, free parameters at coordinates y and values `columns` (K, k)."""
 
     bundle: Bundle
     members: Array
@@ -177,7 +177,7 @@ class Bundle:
     # -- what the equations are ------------------------------------------------------------------------------
 
     def begin(self, members: Array) -> tuple[Linear, Array]:
-        """Choose scales and borders at the points of members; return G linearised there, and which have any, (K,) bool."""
+        """Choose scales and borders at the points of members; return G linearised, and which have any, (K,) bool."""
         here, h = self._about(members, False, self.x[members], self.y[members]), self._steps[members]
         beside = here.shifted(np.zeros((len(members), self.k, self.n)), h[:, None] * np.eye(self.k))
         slopes = np.abs(beside - here.f[:, None]).max(axis=2) / np.abs(h)
