@@ -18,8 +18,8 @@ from mjcont.numerics.points.kinds import KINDS
 from mjcont.results.points import SpecialPoint
 
 _MOVED = ("LP", "CP")
-# variants at a time, at most, and states of all in one evaluation, of so many for each and each degree of freedom
-_MOST, _STATES, _PER_DEGREE = 32, 2**14, 20
+# states of all variants in one evaluation, at most, of so many for each and each degree of freedom
+_STATES, _PER_DEGREE = 2**14, 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,7 @@ class Fellows:
         self._problem, self._names = point.model, point_names(point)
         self._coefficient = KINDS[point.kind].coefficients[0]
         self._read = [c for c in columns if c not in point.parameters and c != self._coefficient]
-        self._most = max(1, min(_MOST, _STATES // (_PER_DEGREE * self._problem.n)))
+        self._most = max(1, min(self._problem.together(self._names), _STATES // (_PER_DEGREE * self._problem.n)))
 
     @classmethod
     def of(cls, point: SpecialPoint, columns: Sequence[str] = ()) -> Fellows | None:
@@ -64,7 +64,7 @@ class Fellows:
         if point.kind not in _MOVED or not point.converged:
             return None
         problem, names = point.model, point_names(point)
-        if not problem.together(names):
+        if problem.together(names) == 1:
             return None
         held = problem.rigid_modes(point.state, problem.values(point.parameters))
         return None if held else cls(point, columns)

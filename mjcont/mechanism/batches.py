@@ -16,6 +16,8 @@ from mjcont.numerics.equations.clock import check
 from mjcont.numerics.equations.problem import Array, Values, Variants
 from mjcont.results.quantities import Parameter
 
+# more variants share calls that take little any more; meshes are in every model
+_MOST_VARIANTS, _MODELS_BYTES = 32, 2e8
 _CONTACT = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)
 
 
@@ -100,15 +102,21 @@ class ModelVariants(Variants):
     Parameters
     ----------
     fresh : makes a model as loaded, to be written to, with its writer.
+    size : what a model takes, in bytes.
     parameters : by name.
     counted : called with the number of evaluations made.
+
+    Attributes
+    ----------
+    most : how many variants are worth their memory, if each has a model before it is moved and one after.
     """
 
     def __init__(
-        self, fresh: Callable[[], tuple[mujoco.MjModel, FieldWriter]], parameters: Mapping[str, Parameter],
+        self, fresh: Callable[[], tuple[mujoco.MjModel, FieldWriter]], size: int, parameters: Mapping[str, Parameter],
         counted: Callable[[int], None],
     ) -> None:
         self._fresh, self._parameters, self._counted = fresh, parameters, counted
+        self.most = max(1, min(_MOST_VARIANTS, int(_MODELS_BYTES / (2 * size))))
         self._models: list[mujoco.MjModel] = []
         self._writers: list[FieldWriter] = []
         self._values: list[Values] = []

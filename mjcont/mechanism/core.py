@@ -62,7 +62,7 @@ class Core:
         self.nonsmooth = self.evaluator.nonsmooth
         self.derivatives = Derivatives(self.evaluator, self.writer, parameters, scale, moved)
         fresh = partial(_fresh, self.loaded, parameters, geometry)
-        self.variants = ModelVariants(fresh, parameters, self.evaluator.counted)
+        self.variants = ModelVariants(fresh, self.loaded.nbuffer, parameters, self.evaluator.counted)
 
     def writer_of(self, model: mujoco.MjModel) -> FieldWriter:
         """Return what writes parameter values into a copy of the model."""

@@ -235,13 +235,13 @@ class Mechanism(Shareable, Observed, Held, Model):
         """Return the residual and its derivatives in the state and in a parameter; arguments as `residuals_along`."""
         return None if self._held else self._core.derivatives.linearize_along(states, values, name, column, bounds)
 
-    def together(self, names: Sequence[str]) -> bool:
-        """Whether states of variants are evaluated in one batch: the forces are smooth, `names` are controls."""
-        return all(self.side_by_side(name) for name in names)
+    def together(self, names: Sequence[str]) -> int:
+        """Return how many variants are evaluated in one batch: 1 unless forces are smooth and `names` are controls."""
+        return self._core.variants.most if all(self.side_by_side(name) for name in names) else 1
 
     def variants(self, values: Sequence[Values], names: Sequence[str]) -> Variants:
         """Return the residuals of variants with these values, for use until the next call."""
-        if not self.together(names):
+        if self.together(names) == 1:
             return Model.variants(self, values, names)
         variants = self._core.variants
         variants.take(values, names)

@@ -75,6 +75,16 @@ def test_cusps_come_to_where_their_closed_form_has_them_with_their_coefficient()
         assert found.coefficient[i] == pytest.approx(-target["r"] / 12.0, rel=1e-6)
 
 
+def test_a_parameter_may_move_on_a_logarithmic_scale() -> None:
+    own = {"la": 2.0, "p": 0.0}  # the lower fold, z = -1
+    variants = FIELD.variants([FIELD.values(own), FIELD.values({**own, "s": 0.2, "mu": 3.1})], ("la",))
+    free = [[Free("la", 1e-2, 20.0, bounded=False)]]
+    found = move(FIELD, variants, np.full((1, 2), -1.0), free, np.array([[2.0]]), np.zeros(1, dtype=int))
+    assert found.reached[0]
+    z = math.sqrt(3.1 / 3.0)
+    assert found.values[0, 0] == pytest.approx(3.1 * z - z**3, rel=1e-12)
+
+
 def test_the_coefficient_of_a_fold_is_that_of_its_normal_form() -> None:
     found = moved(fold(), [{"p": 0.05, "r": 1.1}])
     z = fold(0.05, 1.1)[0]

@@ -13,6 +13,7 @@ from problems.variants import STUDY, records, study
 
 import mjcont as mc
 from mjcont.influence.alongside import Fellows, Place
+from mjcont.mechanism.batches import ModelVariants
 from mjcont.sweeps import jobs
 from mjcont.sweeps.jobs import NOMINAL, Item, run_items
 
@@ -111,6 +112,12 @@ def test_points_of_models_that_are_smooth_in_pieces_are_moved_one_by_one(tmp_pat
     assert Fellows.of(fold) is None  # its stop is a limit
     table = mc.sweep({"fold": fold}, {"k": [1.01 * fold["k"]]}, design="list", out=tmp_path, workers=1)
     assert table["fold.M"][0] == mc.follow_point(fold, {"k": 1.01 * fold["k"]}).point["M"]
+
+
+def test_a_model_with_large_meshes_is_not_copied_for_many_variants() -> None:
+    kept = ModelVariants(lambda: (None, None), 10**9, {}, lambda count: None)  # type: ignore[arg-type, return-value]
+    assert kept.most == 1
+    assert mc.Mechanism.from_xml("overcentre").together(("F",)) > 1
 
 
 def test_cases_that_settle_side_by_side_are_not_followed_alone(

@@ -268,13 +268,14 @@ class Equations(ABC):
         del states, values, name, column, bounds
         return None
 
-    def together(self, names: Sequence[str]) -> bool:
-        """Whether states of many variants, which differ in parameters, cost hardly more in one call than one in each.
+    def together(self, names: Sequence[str]) -> int:
+        """Return how many variants, which differ in parameters, are best evaluated in one call; 1 where none gain.
 
-        f is smooth, and affine in the parameters `names`, which differ between the states of a variant.
+        More than one says that f is smooth, and affine in the parameters `names`, which differ between the states of a
+        variant, too.
         """
         del names
-        return False
+        return 1
 
     def variants(self, values: Sequence[Values], names: Sequence[str]) -> Variants:
         """Return f of variants with these values, for use until the next call; `names` are given for every state."""

@@ -50,19 +50,9 @@ class Moved:
 def move(
     problem: Equations, variants: Variants, x: Array, free: Sequence[Sequence[Free]], values: Array, like: Array
 ) -> Moved:
-    """Move points from one set of variants to another.
+    """Move points from one set of variants to another; arguments as of a `Bundle`.
 
-    Parameters
-    ----------
-    problem : Equations
-        Smooth, and affine in the free parameters.
-    variants : Variants
-        First those that the points lie on, (K of them), then those that they move to.
-    x : (K, nq) states.
-    free : the free parameters of each point, one for a fold, two for a cusp, none of them bounded.
-    values : those of the free parameters, (K, k).
-    like : (K,) int
-        For each point the first that is the same one on the same variant.
+    `like` (K,) has for each point the first that is the same one on the same variant.
     """
     bundle = Bundle(problem, variants, x, free, values)
     with np.errstate(all="ignore"):
