@@ -26,15 +26,19 @@ def moved(point: mc.SpecialPoint, targets: list[dict[str, float]], read: tuple[s
     return fellows.moved([Place(point.parameters, point.state, point.free)] * len(targets), targets)
 
 
-def agrees(place: Place | None, point: mc.SpecialPoint, angle: str) -> None:
-    """Assert that a place is that of a point that was followed alone."""
+def agrees(place: Place | None, point: mc.SpecialPoint, angle: str, second: float = 1e-6) -> None:
+    """Assert that a place is that of a point that was followed alone.
+
+    Its state is to what that leaves open of it, its coefficient to `second`: rounding of second differences.
+    """
     assert place is not None
     for name in point.free:
         assert place[name] == pytest.approx(point[name], rel=1e-9)
-    assert place[angle] == pytest.approx(point[angle], abs=1e-9)
-    np.testing.assert_allclose(place.state, point.state, atol=1e-9)
+    left_open = max(1e-9, 3.0 * point.tolerance)
+    assert place[angle] == pytest.approx(point[angle], abs=left_open)
+    np.testing.assert_allclose(place.state, point.state, atol=left_open)
     for name, value in point.coefficients.items():
-        assert place.coefficients[name] == pytest.approx(value, rel=1e-6)
+        assert place.coefficients[name] == pytest.approx(value, rel=second)
 
 
 def overcentre(**start: float) -> mc.SpecialPoint:
@@ -43,12 +47,12 @@ def overcentre(**start: float) -> mc.SpecialPoint:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("stiffness", [1e3, 1e6])
-def test_folds_of_the_overcentre_are_those_that_are_followed_alone(stiffness: float) -> None:
+@pytest.mark.parametrize(("stiffness", "second"), [(1e3, 1e-8), (1e6, 1e-6), (1e8, 1e-3)])
+def test_folds_of_the_overcentre_are_those_that_are_followed_alone(stiffness: float, second: float) -> None:
     fold = overcentre(k_j=stiffness)
     targets = [{"k_sp": 10.3, "l_us": 0.498}, {"m_1": 1.01, "m_2": 0.98, **LOADS}, {"k_j": 1.2 * stiffness}]
     for target, place in zip(targets, moved(fold, targets, ("theta_1",)), strict=True):
-        agrees(place, mc.follow_point(fold, target).point, "theta_1")
+        agrees(place, mc.follow_point(fold, target).point, "theta_1", second)
 
 
 @pytest.mark.slow

@@ -12,15 +12,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mjcont.numerics.equations.directions import dot
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array, Equations, Variants
 from mjcont.numerics.points.bundle import Bundle
 
 # longest predicted step, scaled; parts of a step, and a length, by which prediction and solution may differ
 REACH, AGREE, CLOSE = 0.3, 0.2, 1e-4
-_TOL, _NEWTON, _POLISH = 1e-12, 5, 3
-# a Newton step below which the last derivatives do, and a correction that leaves a point known
-_NEAR, _KNOWN = 1e-5, 1e-9
+_TOL, _NEWTON, _POLISH = 1e-12, 5, 4
+# a Newton step below which its derivatives do for what is left
+_NEAR = 1e-6
+# a correction that is no shorter than half the one before is noise: below this after a Newton step, below that after
+# another correction
+_NOISE, _NOISE_AGAIN = 1e-9, 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +64,11 @@ def move(
 
 
 class _Move:
-    """Members of a bundle on their way; those that `alive` no longer marks were given up."""
+    """Members of a bundle on their way.
+
+    `alive` marks those that were not given up, `settled` those that have arrived; `start` and `last` have G linearised
+    where members come from, and where it was last.
+    """
 
     def __init__(self, bundle: Bundle, like: Array) -> None:
         self.bundle = bundle
@@ -79,8 +87,7 @@ class _Move:
         """Predict, correct and check."""
         bundle, everyone = self.bundle, np.arange(self.bundle.count)
         predicted = -self.start.solved(bundle.change(everyone, self.start, True))
-        size = _norms(predicted)
-        self._leave(everyone, ~(size <= REACH))
+        self._leave(everyone, ~(_norms(predicted) <= REACH))
         going = self._going()
         self.x[going], self.y[going] = bundle.moved(self.x[going], self.y[going], predicted[going])
         for _ in range(_NEWTON):
@@ -92,8 +99,8 @@ class _Move:
         self._check(np.flatnonzero(self.alive), predicted)
         reached = np.flatnonzero(self.alive)
         values, coefficient = np.full((bundle.count, bundle.k), np.nan), np.full(bundle.count, np.nan)
-        values[reached] = bundle.values(reached, self.y[reached])
-        coefficient[reached] = bundle.coefficients(reached, self.x[reached], self.y[reached])
+        y, found = bundle.finished(reached, self.last.of(reached), self.x[reached], self.y[reached])
+        values[reached], coefficient[reached] = bundle.values(reached, y), found
         return Moved(self.alive, self.x, values, self.tolerance, coefficient, bundle.counts)
 
     def _going(self) -> Array:
@@ -110,16 +117,14 @@ class _Move:
         sizes = self._step(members, -here.solved(here.value))
         self._leave(members, ~(sizes <= REACH))
         close, before = members[sizes <= _NEAR], sizes[sizes <= _NEAR]
-        for _ in range(_POLISH):
-            if not len(close):
-                break
+        for turn in range(_POLISH):
             at = self.last.of(close)
             sizes = self._step(close, -at.solved(bundle.value(close, self.x[close], self.y[close])))
             self.tolerance[close] = sizes
-            done = (sizes <= _TOL) | ((sizes <= _KNOWN) & (sizes > 0.1 * before))
+            noise = (sizes > 0.5 * before) & (sizes <= (_NOISE_AGAIN if turn else _NOISE))
+            done = noise | (sizes <= _TOL)
             self.settled[close[done]] = True
-            on = ~done & (sizes < before)
-            close, before = close[on], sizes[on]
+            close, before = close[~done], sizes[~done]
 
     def _step(self, members: Array, step: Array) -> Array:
         """Move by scaled steps and return their lengths."""
@@ -138,5 +143,5 @@ class _Move:
 
 
 def _norms(steps: Array) -> Array:
-    found: Array = np.sqrt((steps * steps).sum(axis=1))
+    found: Array = np.sqrt(dot(steps, steps))
     return found

@@ -221,23 +221,27 @@ class Bundle:
             parts.append((0.5 * dot(w, second) / self._weight[members])[:, None])
         return np.hstack(parts)
 
-    def coefficients(self, members: Array, x: Array, y: Array) -> Array:
-        """Return the coefficients of the normal forms at points of variants ahead, with |v| = 1 and w . v = 1, (K,)."""
+    def finished(self, members: Array, near: Linear, x: Array, y: Array) -> tuple[Array, Array]:
+        """Return coordinates (K, k) and normal form coefficients (K,) at points of variants ahead, |v| = 1 and w . v = 1.
+
+        `near` are linearisations nearby. The parameter of a fold is taken from w . f = 0: rounding of the state loads
+        stiff springs, but the left null vector does not feel it.
+        """
         here, along, n = self._about(members, True, x, y), self._along, self.n
         v, w, _ = self._null(self._bordered(members, here.jac), members)
         v = orient(v / np.sqrt(dot(v, v))[:, None])
         w = w / dot(w, v)[:, None]
         second = along.curvature(here.f, here.at(along.along(v))[0], v)
         if not self.cusp:
-            return dot(0.5 * w, second)
+            slope = near.matrix[:, :n, n] / self._rows[members]
+            return y - (dot(w, here.f) / dot(w, slope))[:, None], dot(0.5 * w, second)
         matrix = np.zeros((len(v), n + 1, n + 1))
         matrix[:, :n, :n], matrix[:, :n, n], matrix[:, n, :n] = here.jac / self._scale, w, v
         rhs = second if self.problem.second_order else second - dot(w, second)[:, None] * v
         h = solve_each(matrix, np.hstack([rhs, np.zeros((len(v), 1))]))[:, :n]
         far, *polar = here.at(along.far(v), *along.polar(h, v))
         crossed = along.polarized(here.f, (polar[0], polar[1]), h, v)
-        found: Array = dot(w, along.thrice(far, v) - 3.0 * crossed) / 6.0
-        return found
+        return y, dot(w, along.thrice(far, v) - 3.0 * crossed) / 6.0
 
     # -- linearised ------------------------------------------------------------------------------------------
 
