@@ -222,7 +222,7 @@ class Bundle:
         return np.hstack(parts)
 
     def finished(self, members: Array, near: Linear, x: Array, y: Array) -> tuple[Array, Array]:
-        """Return coordinates (K, k) and normal form coefficients (K,) at points of variants ahead, |v| = 1 and w . v = 1.
+        """Return coordinates (K, k) and normal form coefficients (K,), |v| = w . v = 1, at points of variants ahead.
 
         `near` are linearisations nearby. The parameter of a fold is taken from w . f = 0: rounding of the state loads
         stiff springs, but the left null vector does not feel it.
