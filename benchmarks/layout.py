@@ -8,7 +8,7 @@ from typing import Any
 from benchmarks.book import FAILED, MISSING
 
 POINTS, CHAIN, DIAGRAM, MEMORY, JOBS = "points [us]", "chain [us]", "diagram [ms]", "memory [MB]", "jobs [s]"
-ORBITS = "orbits [ms]"
+ORBITS, SWEEPS = "orbits [ms]", "cases of sweeps, CPU [ms]"
 
 
 class Table:

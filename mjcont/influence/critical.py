@@ -27,6 +27,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points import normalform
+from mjcont.numerics.points.alongside import AGREE, CLOSE, REACH
 from mjcont.numerics.points.events import ScalarZero
 from mjcont.numerics.points.kinds import CONTINUABLE, KINDS, conditions_of, name_of
 from mjcont.results.maps import FollowedPoint
@@ -36,10 +37,7 @@ from mjcont.results.points import Point, SpecialPoint, show
 # a system, and the state and y that solve it
 Solution = tuple[System, Array, Array]
 SUPPORTED = (*CONTINUABLE, "UZ")
-_REACH = 0.3  # longest predicted step, scaled
 _SHORTEST = 1e-4  # of the way
-_AGREE = 0.2
-_CLOSE = 1e-4
 _STEEPER = 3.0
 _NEWTON = 6
 
@@ -114,7 +112,7 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
         coefficients, vectors = {k: v for k, v in coefficients.items() if k == "omega"}, {}
     p = make_point(like.model, c.x, values, like.kind)
     own = point_names(like)
-    free = {n: _around(like.model.parameters[n], b, values[n]) if n in own else b for n, b in like.free.items()}
+    free = {n: around(like.model.parameters[n], b, values[n]) if n in own else b for n, b in like.free.items()}
     return replace(
         like, parameters=p.parameters, observables=p.observables, state=p.state, eigenvalues=p.eigenvalues,
         n_unstable=p.n_unstable, stability=p.stability, tolerance=known_to(system, c), coefficients=coefficients,
@@ -122,7 +120,7 @@ def located_point(like: SpecialPoint, system: System, c: Corrected) -> SpecialPo
     )
 
 
-def _around(parameter: Any, bounds: tuple[float, float], value: float) -> tuple[float, float]:
+def around(parameter: Any, bounds: tuple[float, float], value: float) -> tuple[float, float]:
     """Return bounds that contain a value with room beside it: those given, or widened to that side."""
     (low, high), hard = bounds, parameter.hard_bounds
     room = 0.5 * (high - low)
@@ -131,6 +129,12 @@ def _around(parameter: Any, bounds: tuple[float, float], value: float) -> tuple[
     if value > high:
         high = min(value + room, hard[1])
     return low, high
+
+
+def within(parameter: Any, value: float) -> bool:
+    """Whether there is a model at a value that a parameter was solved for."""
+    low, high = parameter.hard_bounds
+    return bool(low <= value <= high)
 
 
 def check_targets(point: SpecialPoint, targets: Mapping[str, float]) -> dict[str, float]:
@@ -286,7 +290,7 @@ class Walk:
         for _ in range(most):
             self.speed = float(np.linalg.norm(tangent))
             self.least = min(self.least, self.speed)
-            dt = min(dt, 1.0 - self.t, _REACH / self.speed if self.speed > 0 else 1.0)
+            dt = min(dt, 1.0 - self.t, REACH / self.speed if self.speed > 0 else 1.0)
             if dt < shortest:
                 return self._lost()
             done = self._step(dt, tangent, sign)
@@ -314,13 +318,13 @@ class Walk:
                 return None
             moved = system.difference(c.x, c.y, self.x, self.y)
             size, off = np.linalg.norm(moved), np.linalg.norm(moved - dt * tangent)
-            if off > _AGREE * size + _CLOSE:
+            if off > AGREE * size + CLOSE:
                 self.reason = Refused(Why.OTHER_BRANCH, "the solution found is not the one predicted")
                 return None
             after, new_sign = self._tangent(system, t, c.x, c.y)
         bent = np.linalg.norm(moved - 0.5 * dt * (tangent + after))
         turned = new_sign * sign < 0 and not any(k.direction is not None for k in system.conditions)
-        if not bent <= 0.5 * _AGREE * size + _CLOSE or turned:
+        if not bent <= 0.5 * AGREE * size + CLOSE or turned:
             self.reason = Refused(Why.OTHER_BRANCH, "the solution found is not on the same curve")
             return None
         self.t, self.x, self.y, self.system, self._c = t, c.x, c.y, system, c
@@ -341,7 +345,7 @@ class Walk:
     def _beyond(self) -> str:
         for name, value in self.path[-1].items():
             p = self.like.model.parameters[name]
-            if name in self.system.names and not p.hard_bounds[0] <= value <= p.hard_bounds[1]:
+            if name in self.system.names and not within(p, value):
                 return f"{self.label} leaves the actuator's ctrlrange: {name} = {show(value, p.unit)}"
         return ""
 

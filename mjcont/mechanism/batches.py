@@ -1,18 +1,23 @@
-"""Evaluations of many states of one model: batched where nothing constrains it, one by one where something does."""
+"""Evaluations of many states of one model or of its variants: batched where nothing constrains it, else one by one."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
+from mjcont.errors import MjcontError
 from mjcont.mechanism.kinks import Kinks, codes_at, element_name
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.models.quiet import Warned, quiet
-from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.clock import check
+from mjcont.numerics.equations.problem import Array, Values, Variants
+from mjcont.results.quantities import Parameter
 
+# more variants share calls that take little any more; meshes are in every model
+_MOST_VARIANTS, _MODELS_BYTES = 32, 2e8
 _CONTACT = int(mujoco.mjtConstraint.mjCNSTR_CONTACT_FRICTIONLESS)
 _EQUALITY = int(mujoco.mjtConstraint.mjCNSTR_EQUALITY)
 _LIMITS = (int(mujoco.mjtConstraint.mjCNSTR_LIMIT_JOINT), int(mujoco.mjtConstraint.mjCNSTR_LIMIT_TENDON))
@@ -89,6 +94,104 @@ class Rows:
     def sides(self) -> list[bytes]:
         """What tells apart the smooth pieces of the forces in the last evaluation, by rows."""
         return [row.tobytes() for row in self.codes]
+
+
+class ModelVariants(Variants):
+    """Forces at rest of variants of a smooth model; some controls have values of their own in every state.
+
+    Row r of variant s is simulation r S + s of a batch for S variants: each keeps its model, whatever is asked for.
+
+    Parameters
+    ----------
+    fresh : makes a model as loaded, to be written to, with its writer.
+    size : what a model takes, in bytes.
+    parameters : by name.
+    counted : called with the number of evaluations made.
+
+    Attributes
+    ----------
+    most : how many variants are worth their memory, if each has a model before it is moved and one after.
+    """
+
+    def __init__(
+        self, fresh: Callable[[], tuple[mujoco.MjModel, FieldWriter]], size: int, parameters: Mapping[str, Parameter],
+        counted: Callable[[int], None],
+    ) -> None:
+        self._fresh, self._parameters, self._counted = fresh, parameters, counted
+        self.most = max(1, min(_MOST_VARIANTS, int(_MODELS_BYTES / (2 * size))))
+        self._models: list[mujoco.MjModel] = []
+        self._writers: list[FieldWriter] = []
+        self._values: list[Values] = []
+        self._names: tuple[str, ...] = ()
+        self._sound = np.zeros(0, dtype=bool)
+        self._batch: Batch | None = None
+        self._qpos = self._ctrl = self._forces = np.zeros((0, 0, 0))
+        self._current = False  # whether the batch has the models as they are
+
+    def take(self, values: Sequence[Values], names: Sequence[str]) -> None:
+        """Write the values of variants, each into a model; `names` are controls that nothing else depends on."""
+        while len(self._models) < len(values):
+            model, writer = self._fresh()
+            self._models.append(model)
+            self._writers.append(writer)
+            self._batch = None
+        self._values, self._names = list(values), tuple(names)
+        self._sound = np.array([self._written(w, v) for w, v in zip(self._writers, values, strict=False)])
+        self._current = False
+
+    def _written(self, writer: FieldWriter, values: Values) -> bool:
+        """Write values; return whether there is such a model."""
+        try:
+            writer.write(self._parameters, values)
+        except MjcontError:
+            return False
+        return not writer.failure
+
+    def residuals(self, chosen: Array, states: Array, columns: Array) -> Array:
+        """Return forces at rest of the variants chosen, (K, m, nv)."""
+        check()
+        count, slots = states.shape[1], len(self._models)
+        self._counted(len(chosen) * count)
+        self._prepare(count)
+        self._qpos[:count, chosen] = states.transpose(1, 0, 2)
+        if self._names:
+            self._ctrl[:count, chosen] = self._controls(chosen, columns).transpose(1, 0, 2)
+        rows = (np.arange(count)[:, None] * slots + chosen).ravel().astype(np.int32)
+        assert self._batch is not None
+        self._batch.forward(rows)
+        found: Array = np.ascontiguousarray(self._forces[:count, chosen].transpose(1, 0, 2))
+        spoilt = self._warned.spoilt()
+        if spoilt is not None:
+            found[spoilt.reshape(-1, slots)[:count, chosen].T] = np.nan
+        found[~self._sound[chosen]] = np.nan
+        return found
+
+    def _prepare(self, count: int) -> None:
+        """Have a batch with so many rows for each variant, on the models as they are, with their inputs."""
+        slots = len(self._models)
+        if self._batch is None or len(self._qpos) < count:
+            self._batch = Batch(self._models[0], count * slots, nthread=1)
+            self._warned = Warned(self._batch)
+            self._qpos, self._ctrl, self._forces = (
+                view.reshape(count, slots, -1) for view in map(self._batch.bind, ("qpos", "ctrl", "qfrc_smooth"))
+            )
+            self._current = False
+        if not self._current:
+            self._batch.set_models(self._models * len(self._qpos))
+            for s, writer in enumerate(self._writers):
+                for view, array in writer.inputs.bound(self._batch):
+                    view[s::slots] = array
+            self._current = True
+
+    def _controls(self, chosen: Array, columns: Array) -> Array:
+        """Return the controls in every state, (K, m, nu)."""
+        ctrl = np.stack([self._writers[s].inputs.ctrl for s in chosen.tolist()])
+        out = np.repeat(ctrl[:, None], columns.shape[1], axis=1)
+        for i, name in enumerate(self._names):
+            own = np.array([self._values[s][name] for s in chosen.tolist()])
+            for target in self._parameters[name].targets:
+                out[:, :, list(target.index)] += (target.factor * (columns[:, :, i] - own[:, None]))[..., None]
+        return out
 
 
 class ConstrainedRows:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable
+from functools import partial
 
 import mujoco
 import numpy as np
 
+from mjcont.mechanism.batches import ModelVariants
 from mjcont.mechanism.derivatives import Derivatives
 from mjcont.mechanism.evaluation import Evaluator
 from mjcont.mechanism.geometry import Geometry
@@ -36,6 +38,7 @@ class Core:
     loaded, model : MjModel
         As loaded, and the private copy on which residuals are evaluated.
     writer, evaluator, derivatives : of that copy.
+    variants : evaluates many variants on copies of its own.
     readings : reads observables from a third copy.
     nonsmooth : whether the forces are smooth in pieces only.
     """
@@ -58,6 +61,8 @@ class Core:
         self.evaluator = Evaluator(self.model, self.writer, constrained, evaluations)
         self.nonsmooth = self.evaluator.nonsmooth
         self.derivatives = Derivatives(self.evaluator, self.writer, parameters, scale, moved)
+        fresh = partial(_fresh, self.loaded, parameters, geometry)
+        self.variants = ModelVariants(fresh, self.loaded.nbuffer, parameters, self.evaluator.counted)
 
     def writer_of(self, model: mujoco.MjModel) -> FieldWriter:
         """Return what writes parameter values into a copy of the model."""
@@ -67,6 +72,14 @@ class Core:
         """Return the model on which residuals are evaluated, every parameter at the model's own value."""
         self.writer.write(self.parameters, {name: p.value for name, p in self.parameters.items()})
         return self.model
+
+
+def _fresh(
+    loaded: mujoco.MjModel, parameters: ParameterTable, geometry: Geometry
+) -> tuple[mujoco.MjModel, FieldWriter]:
+    """Return another copy on which residuals are evaluated, and its writer."""
+    model = evaluation_copy(copy_model(loaded))
+    return model, FieldWriter(model, parameters, geometry)
 
 
 def copy_model(model: mujoco.MjModel) -> mujoco.MjModel:

@@ -47,6 +47,10 @@ class Evaluator:
         self._warned = Warned(self._data)
         self._forces = self._data.qfrc_smooth[None]
 
+    def counted(self, count: int) -> None:
+        """Count evaluations made elsewhere."""
+        self.count += count
+
     def _rows(self, count: int) -> Rows:
         rows = self._batches.get(count)
         if rows is None:

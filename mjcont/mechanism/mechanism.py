@@ -39,7 +39,7 @@ from mjcont.models.states import (
     state_labels,
     state_scale,
 )
-from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
+from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values, Variants
 from mjcont.results.model import Model
 from mjcont.results.quantities import Parameter, check_name, check_values, told_apart
 from mjcont.results.text import ParameterTable
@@ -241,6 +241,18 @@ class Mechanism(Shareable, Observed, Held, Model):
     ) -> tuple[Array, Array, Array] | None:
         """Return the residual and its derivatives in the state and in a parameter; arguments as `residuals_along`."""
         return None if self._held else self._core.derivatives.linearize_along(states, values, name, column, bounds)
+
+    def together(self, names: Sequence[str]) -> int:
+        """Return how many variants are evaluated in one batch: 1 unless forces are smooth and `names` are controls."""
+        return self._core.variants.most if all(self.side_by_side(name) for name in names) else 1
+
+    def variants(self, values: Sequence[Values], names: Sequence[str]) -> Variants:
+        """Return the residuals of variants with these values, for use until the next call."""
+        if self.together(names) == 1:
+            return Model.variants(self, values, names)
+        variants = self._core.variants
+        variants.take(values, names)
+        return variants
 
     def acceleration(self, qpos: Array, qvel: Array, values: Values | None = None) -> Array:
         """Return qacc at a state of motion, (nv,), in m/s^2 and rad/s^2."""

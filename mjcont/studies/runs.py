@@ -16,7 +16,7 @@ from mjcont.results.branch import Branch
 from mjcont.results.model import units
 from mjcont.results.points import show
 from mjcont.results.text import Tabular
-from mjcont.studies.choices.runs import design_files, run_design, run_hold
+from mjcont.studies.choices.runs import run_design, run_hold
 from mjcont.studies.keys import Reference
 from mjcont.studies.plans import Task
 from mjcont.studies.reporter import Reporter
@@ -265,8 +265,10 @@ def _hold(plan: Task, at: Running) -> Outcome:
 def _design(plan: Task, at: Running) -> Outcome:
     points = {name: point_of(at.done, reference) for name, reference in plan.given["points"].items()}
     found = run_design(plan.given, points, at.reporter.step)
-    files = design_files(found, plan.given, at.folder / plan.name, lambda axes: _drawn(axes, plan, at))
-    return found, [*_table(found, plan, at), *files]
+    files = [*_table(found, plan, at), *(_drawn(found.plot, plan, at) if plan.given["png"] else [])]
+    if plan.given["xml"] and at.folder is not None:
+        files.append(found.to_xml(at.folder / f"{plan.name}.xml"))
+    return found, files
 
 
 def _certificate(plan: Task, at: Running) -> Outcome:

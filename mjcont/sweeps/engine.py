@@ -27,7 +27,8 @@ from mjcont.errors import MjcontError
 from mjcont.outside.processes import end_with_parent, starting
 from mjcont.sweeps.jobs import NOMINAL, Item, run_items
 
-_TASK = 16  # cases in a task, at most
+# cases in a task, at most: more than a few where they are quick, as many as take so many seconds
+_TASK, _QUICK, _LONG = 16, 64, 2.0
 _DEATHS = 2
 # seconds that the thread of a pool has to see its processes end
 _PATIENCE = 5.0
@@ -153,6 +154,8 @@ class Run:
         self.flying: dict[Future[Any], list[int]] = {}
         self.suspects: deque[int] = deque()
         self.deaths: dict[int, int] = {}
+        self._seconds = 0.0
+        self._timed = 0
 
     def go(self) -> None:
         """Compute every case that is not done."""
@@ -162,9 +165,14 @@ class Run:
             else:
                 slots = max(1, self.crew.slots())
                 while self.tree and len(self.flying) < 2 * slots:
-                    self._submit(self.tree.take(slots, _TASK))
+                    self._submit(self.tree.take(slots, self._most()))
             finished, _ = wait(self.flying, return_when=FIRST_COMPLETED)
             self._collect(finished)
+
+    def _most(self) -> int:
+        """Return how many cases a task may have, by what those that are done took."""
+        quick = int(min(_LONG * self._timed / self._seconds, _QUICK)) if self._seconds else 0
+        return max(_TASK, quick)
 
     def _alone(self) -> None:
         """Let nothing but the next suspect be in flight, so that a death is its own."""
@@ -213,6 +221,8 @@ class Run:
 
     def _keep(self, records: Sequence[Mapping[str, Any]], cases: set[int]) -> None:
         self.store(records)
+        self._seconds += sum(r.get("seconds", 0.0) for r in records)
+        self._timed += len(records)
         if self.suspects and cases == {self.suspects[0]}:
             self.suspects.popleft()
         suspects = set(self.suspects)

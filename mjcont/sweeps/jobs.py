@@ -22,6 +22,7 @@ from mjcont.curves.collect import make_point
 from mjcont.curves.continuation import continue_equilibria
 from mjcont.curves.loci import continue_special
 from mjcont.errors import MjcontError, ParameterError
+from mjcont.influence.alongside import Fellows, Place
 from mjcont.influence.critical import follow_point
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.results.branch import Branch
@@ -58,11 +59,14 @@ class Item:
 
 def plain_point(point: SpecialPoint) -> dict[str, Any]:
     """Return what a special point is continued from, as JSON has it; floats survive to the bit."""
+    return {**_placed(point), **{n: getattr(point, n) for n in (*_MARK, "curve")}}
+
+
+def _placed(point: SpecialPoint | Place) -> dict[str, Any]:
     return {
         "parameters": dict(point.parameters),
-        "state": [float(x) for x in point.state],
+        "state": point.state.tolist(),
         "free": {n: list(b) for n, b in point.free.items()},
-        **{n: getattr(point, n) for n in (*_MARK, "curve")},
     }
 
 
@@ -132,7 +136,7 @@ def _branch(mechanism: Mechanism, b: Mapping[str, Any], values: Mapping[str, flo
     )
 
 
-def read_quantity(points: Mapping[str, SpecialPoint], quantity: str) -> float:
+def read_quantity(points: Mapping[str, SpecialPoint] | Mapping[str, SpecialPoint | Place], quantity: str) -> float:
     """Return a quantity such as "cusp.F_ul": a parameter, observable or coefficient of a point; NaN where it is not.
 
     Raises
@@ -162,27 +166,58 @@ class Worker:
     def _make(self) -> None:
         self.mechanism = build(self.job["model"])
         self.points = {n: point_of(p, self.mechanism) for n, p in self.job["points"].items()}
+        self.fellows: dict[str, Fellows] = {}
+        if self.job["method"] == "follow":
+            for name, point in self.points.items():
+                columns = [q.partition(".")[2] for q in self.job["record"] if q.partition(".")[0] == name]
+                if (fellows := Fellows.of(point, columns)) is not None:
+                    self.fellows[name] = fellows
+        self.nominal = {n: Place(p.parameters, p.state, p.free) for n, p in self.points.items()}
 
-    def run(self, item: Item, points: Mapping[str, Any] | None) -> dict[str, Any]:
-        """Return the record of a case; whatever goes wrong in it is a sentence there."""
+    def run(self, items: Sequence[Item], points: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+        """Return the records of cases whose parents' points are known, side by side where that pays."""
         began = time.monotonic()
-        if self.mechanism.constrained:
-            self._make()  # MuJoCo's constraint solver starts from its last solution
-        before = self.mechanism.evaluations
-        values = dict(zip(self.names, item.values, strict=True))
-        found: dict[str, SpecialPoint] = {}
-        sentences: list[str] = []
         with np.errstate(all="ignore"), warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            try:
-                self._check(values)
-                if self.job["method"] == "follow":
-                    self._follow(values, points or {}, found, sentences)
-                else:
-                    plans = [PointPlan(**p) for p in self.job["plans"]]
-                    found |= trace_points(self.mechanism, self.job["branches"], plans, values)
-            except Exception as error:
-                sentences.append(_sentence(error))
+            side_by_side = self._side_by_side(items, points)
+            share = (time.monotonic() - began) / len(items)
+            return [self._case(i, p, s, share) for i, p, s in zip(items, points, side_by_side, strict=True)]
+
+    def _side_by_side(self, items: Sequence[Item], points: Sequence[Mapping[str, Any]]) -> list[dict[str, Place]]:
+        """Return for each case the points that were moved to it from its parent beside those of the others."""
+        found: list[dict[str, Place]] = [{} for _ in items]
+        if not self.fellows:
+            return found
+        values = [dict(zip(self.names, item.values, strict=True)) for item in items]
+        sound = [i for i, v in enumerate(values) if self._is_sound(v)]
+        for name, fellows in self.fellows.items():
+            places: dict[int, Place] = {}
+            starts = [places.setdefault(items[i].parent, self._place(name, points[i])) for i in sound]
+            for i, place in zip(sound, fellows.moved(starts, [values[i] for i in sound]), strict=True):
+                if place is not None:
+                    found[i][name] = place
+        return found
+
+    def _case(
+        self, item: Item, points: Mapping[str, Any], known: Mapping[str, Place], seconds: float
+    ) -> dict[str, Any]:
+        """Return the record of a case; whatever goes wrong in it is a sentence there."""
+        began = time.monotonic() - seconds
+        if self.mechanism.constrained:
+            self._make()  # MuJoCo's constraint solver starts from its last solution
+        before = self.mechanism.evaluations - sum(p.evaluations for p in known.values())
+        values = dict(zip(self.names, item.values, strict=True))
+        found: dict[str, SpecialPoint | Place] = dict(known)
+        sentences: list[str] = []
+        try:
+            self._check(values)
+            if self.job["method"] == "follow":
+                self._follow(values, points, found, sentences)
+            else:
+                plans = [PointPlan(**p) for p in self.job["plans"]]
+                found |= trace_points(self.mechanism, self.job["branches"], plans, values)
+        except Exception as error:
+            sentences.append(_sentence(error))
         record = {q: read_quantity(found, q) for q in self.job["record"]}
         return {
             "case": item.case,
@@ -190,10 +225,35 @@ class Worker:
             "status": "failed" if sentences else "ok",
             "message": "; ".join(sentences),
             "values": {q: v if math.isfinite(v) else None for q, v in record.items()},
-            "points": {n: plain_point(p) for n, p in found.items()} if self.job["method"] == "follow" else {},
+            "points": {n: self._plain(n, p) for n, p in found.items()} if self.job["method"] == "follow" else {},
             "evaluations": self.mechanism.evaluations - before,
             "seconds": round(time.monotonic() - began, 4),
         }
+
+    def _place(self, name: str, points: Mapping[str, Any]) -> Place:
+        """Return where a point of the parent is, the nominal one where it has none."""
+        p = points.get(name)
+        if p is None:
+            return self.nominal[name]
+        free = {n: (b[0], b[1]) for n, b in p["free"].items()}
+        return Place(p["parameters"], np.array(p["state"]), free)
+
+    def _plain(self, name: str, point: SpecialPoint | Place) -> dict[str, Any]:
+        """Return what a point is continued from; one that was moved differs from the nominal one in its place alone."""
+        if isinstance(point, SpecialPoint):
+            return plain_point(point)
+        return {
+            **self.job["points"][name], **_placed(point), "tolerance": point.tolerance,
+            "coefficients": dict(point.coefficients),
+        }
+
+    def _is_sound(self, values: Mapping[str, float]) -> bool:
+        """Whether there is a model at these values; why there is none is found when the case is computed alone."""
+        try:
+            self._check(values)
+        except Exception:
+            return False
+        return True
 
     def _check(self, values: Mapping[str, float]) -> None:
         for name, value in values.items():
@@ -204,10 +264,13 @@ class Worker:
         self.mechanism.values(values)
 
     def _follow(
-        self, values: Mapping[str, float], starts: Mapping[str, Any], found: dict[str, SpecialPoint], said: list[str]
+        self, values: Mapping[str, float], starts: Mapping[str, Any], found: dict[str, SpecialPoint | Place],
+        said: list[str],
     ) -> None:
-        """Follow each point from its parent, and where that fails from the nominal case."""
+        """Follow each point that is not found yet from its parent, and where that fails from the nominal case."""
         for name, nominal in self.points.items():
+            if name in found:
+                continue
             for start in ([point_of(starts[name], self.mechanism)] if name in starts else []) + [nominal]:
                 try:
                     moved = follow_point(start, values)
@@ -228,14 +291,18 @@ def _sentence(error: Exception) -> str:
 
 
 def run_items(job: str, items: Sequence[Item]) -> list[dict[str, Any]]:
-    """Compute cases in this process, one after the other, and return their records."""
+    """Compute cases in this process and return their records."""
     worker: Worker | None = getattr(_HERE, "worker", None)
     if worker is None or worker.text != job:
         worker = _HERE.worker = Worker(job)
     done: dict[int, dict[str, Any]] = {}
-    for item in items:
-        starts = done[item.parent]["points"] if item.parent in done else item.points
-        done[item.case] = worker.run(item, starts)
+    left = list(items)
+    while left:  # what hangs on cases of the task waits for them
+        waiting = {item.case for item in left}
+        ready = [item for item in left if item.parent not in waiting]
+        left = [item for item in left if item.parent in waiting]
+        starts = [(done[i.parent]["points"] if i.parent in done else i.points) or {} for i in ready]
+        done.update({record["case"]: record for record in worker.run(ready, starts)})
     return list(done.values())
 
 

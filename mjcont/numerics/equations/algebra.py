@@ -21,6 +21,21 @@ def solve(matrix: Array, rhs: Array) -> Array:
     return _defined(np.linalg.solve, matrix, rhs, like=rhs)
 
 
+def solve_each(matrices: Array, rhs: Array) -> Array:
+    """Return the solutions of A z = rhs for matrices (m, k, k) and vectors (m, k), NaN for singular ones."""
+    try:
+        found: Array = np.linalg.solve(matrices, rhs[..., None])[..., 0]
+    except np.linalg.LinAlgError:
+        found = np.array([solve(a, b) for a, b in zip(matrices, rhs, strict=True)])
+    return found
+
+
+def determinant_signs(matrices: Array) -> Array:
+    """Return the signs of the determinants of matrices (m, k, k): 0 for singular ones, NaN where they hold NaN."""
+    found: Array = np.linalg.slogdet(matrices)[0]
+    return found
+
+
 def inverses(matrices: Array) -> Array:
     """Return the inverses of matrices (m, k, k), NaN for singular ones."""
     return _each(np.linalg.inv, matrices, like=matrices)

@@ -16,7 +16,7 @@ from mjcont.numerics.equations.problem import Array
 
 _TINY = 1e-300
 # part of a vector's largest component from which on another one is as large
-_AS_LARGE = 0.99
+AS_LARGE = 0.99
 
 
 def largest_in_rows(matrix: Any) -> Array:
@@ -123,7 +123,7 @@ def oriented(v: Array) -> Array:
     Components nearly as large as the largest count as such: rounding may choose between them.
     """
     sizes = np.abs(v)
-    first = v[np.argmax(sizes >= _AS_LARGE * sizes.max())]
+    first = v[np.argmax(sizes >= AS_LARGE * sizes.max())]
     return v * (np.conj(first) / abs(first)) if first else v
 
 

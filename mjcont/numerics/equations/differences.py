@@ -80,8 +80,8 @@ NODES = np.array([-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0])
 FIRST = np.array([-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0]) / 60.0
 SECOND = np.array([2.0, -27.0, 270.0, -490.0, 270.0, -27.0, 2.0]) / 180.0
 # Eighth-wide stencil for the third derivative, sixth order.
-_NODES9 = np.arange(-4.0, 5.0)
-_THIRD = np.array([-7.0, 72.0, -338.0, 488.0, 0.0, -488.0, 338.0, -72.0, 7.0]) / 240.0
+FAR_NODES = np.arange(-4.0, 5.0)
+THIRD = np.array([-7.0, 72.0, -338.0, 488.0, 0.0, -488.0, 338.0, -72.0, 7.0]) / 240.0
 
 
 def length_of(v: Array, scale: Array) -> float:
@@ -106,7 +106,7 @@ def directional(problem: Equations, x: Array, values: Values, v: Array, order: i
 
 def combine(f: Callable[[Array], Array], v: Array, order: int, h: float) -> Array:
     """Return the `order`-th derivative of t -> f(t v) at 0 from a batched f."""
-    nodes, weights = {1: (NODES, FIRST), 2: (NODES, SECOND), 3: (_NODES9, _THIRD)}[order]
+    nodes, weights = {1: (NODES, FIRST), 2: (NODES, SECOND), 3: (FAR_NODES, THIRD)}[order]
     rows = f((nodes * h)[:, None] * v)
     return weights @ rows / np.float64(h) ** order  # a power of Python's own raises where it overflows
 
@@ -134,7 +134,7 @@ def settled_combine(f: Callable[[Array], Array], v: Array, order: int, h: float)
     What an order of two more changes falls from order to order by a factor, by which the last change falls once more.
     """
     best, least, relative = np.zeros(0), np.inf, 0.0
-    nodes, weights = {1: (NODES, FIRST), 2: (NODES, SECOND), 3: (_NODES9, _THIRD)}[order]
+    nodes, weights = {1: (NODES, FIRST), 2: (NODES, SECOND), 3: (FAR_NODES, THIRD)}[order]
     for _ in range(_ROUNDS):
         rows = f((nodes * h)[:, None] * v)
         sixth, fourth, second = (w @ rows / np.float64(h) ** order for w in (weights, *_LOWER[order]))

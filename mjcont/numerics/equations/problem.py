@@ -82,6 +82,34 @@ class Varied(Protocol):
         ...
 
 
+class Variants(ABC):
+    """f of several variants of a problem, each with parameter values of its own: many states of many in one call."""
+
+    @abstractmethod
+    def residuals(self, chosen: Array, states: Array, columns: Array) -> Array:
+        """Return f of the variants `chosen` (K,), each once, at states (K, m, nq), shape (K, m, n).
+
+        The parameters that the variants were made for have values of their own in every state, `columns` (K, m, k).
+        What is found for a variant does not depend on which others are asked for. NaN where f has no value.
+        """
+
+
+class OneByOne(Variants):
+    """Variants that are evaluated one after the other, whatever the problem."""
+
+    def __init__(self, problem: Equations, values: Sequence[Values], names: Sequence[str]) -> None:
+        self._problem, self._values, self._names = problem, values, tuple(names)
+
+    def residuals(self, chosen: Array, states: Array, columns: Array) -> Array:
+        """Return f of the variants chosen."""
+        found = np.empty((*states.shape[:2], self._problem.n))
+        for k, variant in enumerate(chosen.tolist()):
+            for i, x in enumerate(states[k]):
+                own = dict(zip(self._names, columns[k, i].tolist(), strict=True))
+                found[k, i] = self._problem.residual(x, {**self._values[variant], **own})
+        return found
+
+
 class Equations(ABC):
     """Base class for problems f(x, p) = 0.
 
@@ -98,6 +126,7 @@ class Equations(ABC):
        - `passive` (and `pencils`): stability by the inertia of K, eigenvalues when they are read;
        - `one_pattern`: a sparse df/dx is extrapolated to the next point;
        - `side_by_side`, `linearize_along`: long steps with points inside, rows between points;
+       - `together` and `variants`: points of variants are corrected side by side;
        - `nonsmooth`, `pieces` and `active`: corners are found and crossed;
        - `periods`: curves that close full turns apart end there;
        - `admissible`: predictions leave out motions that the problem holds.
@@ -238,6 +267,19 @@ class Equations(ABC):
         """Return f (m, n), df/dx (m, n, n) and df/dp (m, n) at such states; None where side by side gains nothing."""
         del states, values, name, column, bounds
         return None
+
+    def together(self, names: Sequence[str]) -> int:
+        """Return how many variants, which differ in parameters, are best evaluated in one call; 1 where none gain.
+
+        More than one says that f is smooth, and affine in the parameters `names`, which differ between the states of a
+        variant, too.
+        """
+        del names
+        return 1
+
+    def variants(self, values: Sequence[Values], names: Sequence[str]) -> Variants:
+        """Return f of variants with these values, for use until the next call; `names` are given for every state."""
+        return OneByOne(self, values, names)
 
     @property
     def own_jacobian(self) -> bool:

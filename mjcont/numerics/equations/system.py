@@ -24,7 +24,7 @@ _GRADIENT_STEP = 1e-3
 _SLOPE_STEP = 5e-3  # the noise of a condition with stiff bushes over it and the truncation balance there
 # a row of J may vanish at a special point: it must not be blown up on the way there
 ROW_GUARD = 1e-3
-_VANISHES = 1e-10
+VANISHES = 1e-10
 _EVERYWHERE = (-math.inf, math.inf)
 _BATCHES = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
 
@@ -113,7 +113,7 @@ def equation_scale(local: Local) -> Array:
     largest = largest_in_rows(local.jac)
     by_parameters = float(np.abs(local.par).max()) if local.par.size else 0.0
     top = max(float(largest.max()), ROW_GUARD * by_parameters)
-    if top < _VANISHES:  # a degenerate point: take the sizes a little beside it
+    if top < VANISHES:  # a degenerate point: take the sizes a little beside it
         beside = local.problem.residual(local.problem.retract(local.x, 0.1 * local.problem.state_scale), local.values)
         top = max(10.0 * float(np.abs(beside).max()), 1e-300)
     return 1.0 / np.maximum(largest, ROW_GUARD * top)

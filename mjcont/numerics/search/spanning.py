@@ -26,14 +26,21 @@ def spanning_tree(points: Array, deepest: int) -> Array:
     (N,) int array
         Row of the parent, -1 for the origin.
     """
-    count = len(points)
+    count, columns = len(points), np.ascontiguousarray(points.T)
     parents, depth = np.full(count, -1), np.ones(count, dtype=int)
-    for i in range(1, count):
-        apart = points[:i] - points[i]
-        distance = np.where(depth[:i] < deepest, np.einsum("ij,ij->i", apart, apart), math.inf)
-        nearest = int(np.argmin(distance))
-        if distance[nearest] < points[i] @ points[i]:
+    full, apart, distance = np.zeros(count), np.empty(count), np.empty(count)
+    from_origin = sum((column * column for column in columns), np.zeros(count))
+    for i in range(count):
+        before, away = apart[:i], distance[:i]
+        away[:] = full[:i]
+        for column in columns:  # in place: a large design spends its time here
+            np.subtract(column[:i], column[i], out=before)
+            np.multiply(before, before, out=before)
+            np.add(away, before, out=away)
+        nearest = int(away.argmin()) if i else 0
+        if i and away[nearest] < from_origin[i]:
             parents[i], depth[i] = nearest, depth[nearest] + 1
+        full[i] = math.inf if depth[i] >= deepest else 0.0
     return parents
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 
@@ -23,9 +22,3 @@ def run_design(given: Mapping[str, Any], points: Mapping[str, Any], progress: Ca
         points, given["change"], given["targets"], objective=given["objective"], cases=given["cases"],
         scales=given["scales"], starts=given["starts"] or None, tol=given["tol"], progress=progress,
     )
-
-
-def design_files(found: Any, given: Mapping[str, Any], stem: Path, draw: Callable[[Any], Path]) -> list[Path]:
-    """Write and draw what a table asks for, and return the files."""
-    files = [draw(found.plot())] if given["png"] else []
-    return [*files, found.to_xml(stem.with_name(f"{stem.name}.xml"))] if given["xml"] else files
