@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from mjcont.commands import explore, first, help, models, reports, results, studies
@@ -38,16 +38,32 @@ class _Version(argparse.Action):
         parser.exit()
 
 
+class _Parser(argparse.ArgumentParser):
+    """A parser that asks which command was meant: `known` are those that there are, by name."""
+
+    known: Mapping[str, Any] = {}
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Parse; a first word that is no command is a NameLookupError."""
+        first = next(iter(sys.argv[1:] if args is None else args), "-")
+        if not first.startswith("-") and first not in self.known:
+            raise unknown_name("command", first, self.known)
+        return super().parse_known_args(args, namespace)
+
+
 def parser() -> argparse.ArgumentParser:
     """Return the parser of all commands."""
-    top = argparse.ArgumentParser(
+    top = _Parser(
         prog="mjcont",
         description="Where can a MuJoCo mechanism rest, is it stable there, and how does that change with a parameter?",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     top.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
-    commands = top.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    commands = top.add_subparsers(
+        title="commands", metavar="COMMAND", required=True, parser_class=argparse.ArgumentParser
+    )
+    top.known = commands.choices
 
     def command(name: str, text: str, function: Callable[[argparse.Namespace], int]) -> argparse.ArgumentParser:
         added = commands.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
@@ -74,7 +90,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     top = parser()
     try:
-        _check_command(top, sys.argv[1:] if argv is None else argv)
         args = top.parse_args(argv)
         with termination_unwinds():
             return int(args.command(args))
@@ -90,13 +105,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
         return _complain(f"error: {place}{error.strerror or error}", USER_ERROR)
-
-
-def _check_command(top: argparse.ArgumentParser, argv: Sequence[str]) -> None:
-    """Raise a NameLookupError where the first argument is a word and no command."""
-    commands = next(a.choices for a in top._actions if isinstance(a, argparse._SubParsersAction))
-    if argv and not argv[0].startswith("-") and argv[0] not in commands:
-        raise unknown_name("command", argv[0], commands)
 
 
 def _complain(message: str, status: int) -> int:

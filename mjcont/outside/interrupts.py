@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import _thread
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -11,6 +13,8 @@ from types import FrameType
 from typing import Any
 
 TERMINATED = 143
+# s after which a signal comes again
+_SOON = 0.01
 _ENDING = [getattr(signal, n) for n in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, n)]
 
 
@@ -66,13 +70,28 @@ def ended_by(error: BaseException | None) -> int | None:
 
 @contextmanager
 def termination_unwinds() -> Iterator[None]:
-    """Let SIGTERM and SIGHUP raise SystemExit, so that what is open is cleaned up: children, journals, files."""
+    """Let SIGTERM and SIGHUP raise SystemExit, so that what is open is cleaned up: children, journals, files.
+
+    A signal that arrives in a callback out of which Python lets nothing through comes again a moment later.
+    """
 
     def end(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_IGN)  # a second one must not cut the cleaning short
         raise SystemExit(128 + number)
 
+    def again(lost: Any) -> None:
+        number = ended_by(lost.exc_value)
+        if number is None or threading.current_thread() is not threading.main_thread():
+            told(lost)
+            return
+        if number - 128 in before:
+            signal.signal(number - 128, end)
+        timer = threading.Timer(_SOON, _thread.interrupt_main, (number - 128,))
+        timer.daemon = True
+        timer.start()
+
     before: dict[int, Any] = {}
+    told, sys.unraisablehook = sys.unraisablehook, again
     if threading.current_thread() is threading.main_thread():
         for number in _ENDING[1:]:
             if signal.getsignal(number) == signal.SIG_DFL:
@@ -80,5 +99,6 @@ def termination_unwinds() -> Iterator[None]:
     try:
         yield
     finally:
+        sys.unraisablehook = told
         for number, handler in before.items():
             signal.signal(number, handler)
