@@ -149,7 +149,7 @@ def test_tori_end_at_a_zero_hopf_point_and_not_at_a_resonance():
     curve, rest = shrinking(locusends.tori_at_a_zero_hopf_point(), "q", bounds, "NS", "p")
     assert np.abs(curve["q"]).max() < PLACE
     assert kinds(curve) == ["R4"]
-    assert curve.point("R4")["p"] == pytest.approx(-1.0 / 32.0, abs=PLACE)
+    assert curve.of_kind("R4")[0]["p"] == pytest.approx(-1.0 / 32.0, abs=PLACE)
     assert "zero-Hopf point (ZH)" in rest
     assert -1e-3 < curve["p"].max() < 0.0
 
