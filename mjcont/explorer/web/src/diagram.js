@@ -69,7 +69,8 @@ export class Diagram {
       (curve, row) => store.select(curve, row),
       () => store.curve,
     );
-    for (const event of ["curves", "curve"]) store.on(event, () => this.draw());
+    store.on("curves", () => this.draw());
+    store.on("curve", () => this.turn());
     store.on("row", () => this.mark());
     store.on("partial", (curve) => this.grow(curve));
     this.draw();
@@ -86,6 +87,19 @@ export class Diagram {
     if (!first) return;
     this.axes ??= { x: first.axes[0], y: first.axes[1] };
     this.offer();
+    this.draw();
+  }
+
+  /** Take the axes of a curve that is selected where it would be a line straight up, or none. */
+  turn() {
+    const { curve } = this.store,
+      own = this.axes && KINDS.includes(curve?.kind);
+    const [x, y] = own ? [curve.columns[this.axes.x], drawnColumns(curve, this.axes.y).length] : [true, true];
+    if (!x || !y) {
+      this.axes = { x: x ? this.axes.x : curve.axes[0], y: y ? this.axes.y : curve.axes[1] };
+      this.plot.resetZoom();
+      this.offer();
+    }
     this.draw();
   }
 
