@@ -117,9 +117,9 @@ class Desk:
             self._send(EVERYBODY, {"event": "failed", "message": str(error)})
 
     def _document(self) -> dict[str, Any]:
-        now = self._session.now
-        return assembled(self._stage, self._curves(), title=self._session.mechanism.name, study=self._session.toml(),
-                         values=now.common)
+        study, files = self._session.portable()
+        return assembled(self._stage, self._curves(), title=self._session.mechanism.name, study=study, files=files,
+                         values=self._session.now.common)
 
     def _add(self, table: str, args: Mapping[str, Any]) -> dict[str, Any]:
         found = self._session.add(table, args)

@@ -16,7 +16,7 @@ from typing import Any
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StudyError
 from mjcont.explorer.clicks import TABLES, table_of
 from mjcont.explorer.hearing import Hearing, Tell
-from mjcont.explorer.opening import Opened, first_table
+from mjcont.explorer.opening import Opened, first_table, told_model
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.results.branch import Diagram
 from mjcont.results.model import check_bounds
@@ -192,11 +192,17 @@ class Session:
         self.now = self._past.pop()
         self.tell_state()
 
-    def toml(self) -> str:
-        """Return the study as the text of its file."""
+    def portable(self) -> tuple[str, dict[str, str]]:
+        """Return the study as a text for another machine, and the files that it names; empty where that cannot be."""
+        told = told_model(self.mechanism)
+        return ("", {}) if told is None else (self.toml(told[0]), told[1])
+
+    def toml(self, model: str = "") -> str:
+        """Return the study as the text of its file; `model` is what it calls its model, default as it began."""
+        tables = {**self.now.tables, **({"model": model} if model else {})}
         stopped = (n for n, result in self.now.results.items() if interrupted(result))
         return _HEADER + "".join(f"# {n} was stopped; here it is computed whole.\n" for n in stopped) + "\n" + (
-            toml_text(self.now.tables))
+            toml_text(tables))
 
     def tell_state(self) -> None:
         """Tell what there is to click: whether something runs, what undo would drop, the study's tables."""

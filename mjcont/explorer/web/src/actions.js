@@ -7,6 +7,8 @@ const FOLLOWED = new Set(["LP", "HB", "BP", "CP", "BT", "LPC", "PD", "NS"]);
 const ORBITS = new Set(["HB", "PD", "BPC"]);
 // rad (or sizes of the model): how far beside a stable row a motion begins, so that there is one to see
 const BESIDE = 0.05;
+// actions whose tables name the curve
+const NAMING = new Set(["locus", "cycles", "switch", "sensitivities", "barriers"]);
 const WAYS = [
   ["up", "to the upper bound"],
   ["down", "to the lower bound"],
@@ -31,6 +33,17 @@ export function others(document, curve) {
 export function actionsFor(document, curve, row, special) {
   if (!curve) return [ofModel(document)];
   if (!["branch", "locus", "loadpath", "orbits"].includes(curve.kind)) return [];
+  const found = actionsOf(document, curve, row, special),
+    why = "A study computes what it names: choose a curve that was computed here.";
+  return named(document, curve) ? found : found.map((a) => (NAMING.has(a.id) || a.names ? { ...a, why } : a));
+}
+
+/** Whether the session's study has a table of a curve: not of one that was opened from a file. */
+function named({ tables }, { id }) {
+  return !tables || tables.includes(id) || tables.includes(id.replace(/_\d+$/, ""));
+}
+
+function actionsOf(document, curve, row, special) {
   const found = [],
     choices = others(document, curve),
     point = special ? `${curve.id}:${special.label}` : "";
@@ -161,6 +174,7 @@ function motionOf(curve, row) {
     label: "Simulate from this orbit",
     table: "histories",
     fields: [],
+    names: true,
     args: () => ({ row: { curve: curve.id, row } }),
     why: label ? "" : "Choose a labelled orbit, the first or the last.",
   };

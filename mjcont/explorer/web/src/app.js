@@ -104,12 +104,19 @@ function posesOf(curve) {
 }
 
 function buttons(host, store) {
-  const { study, title } = store.document;
+  const { study, files, title } = store.document;
   if (study && !store.live)
     host.append(
       h(
         "button",
-        { class: "take study", onclick: () => give("study.toml", store.document.study, "text/plain") },
+        {
+          class: "take study",
+          title: ["study.toml", ...Object.keys(files ?? {})].join(" and "),
+          onclick: () => {
+            give("study.toml", study, "text/plain");
+            for (const [name, text] of Object.entries(files ?? {})) give(name, text, "text/xml");
+          },
+        },
         "study.toml",
       ),
     );

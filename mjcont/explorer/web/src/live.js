@@ -158,7 +158,7 @@ export class Live {
   }
 
   replace(document) {
-    this.store.replace(document);
+    this.store.replace({ ...document, tables: this.store.document.tables });
     this.offered = null;
     this.store.tell("curves");
     this.store.tell("curve");
@@ -282,7 +282,9 @@ export class Live {
       });
   }
 
-  state({ can_undo: can, undo, running, notes }) {
+  state({ can_undo: can, undo, running, notes, tables }) {
+    this.store.document.tables = tables;
+    this.offer();
     this.store.canUndo = can;
     this.undo.disabled = this.busy > 0 || !can;
     this.undo.title = undo ? `Undo ${undo}` : "";
