@@ -87,7 +87,7 @@ def to_html(path: str | Path, *results: Any, title: str = "", study: str = "") -
     path : str or Path
         Ends with ".html".
     *results : Branch, CycleBranch, LoadPath, History, Sensitivities, SpecialMap, BarrierCurve, or a Diagram
-        The first one's model is shown.
+        All of one model, which is shown.
     title : str
         Default the model's name.
     study : str

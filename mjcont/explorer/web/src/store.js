@@ -2,7 +2,10 @@
 
 import { byName, curveOf, unpack } from "./data.js";
 
-/** Return the row of a curve that is computed anew for one of it as it was: the same special point, or the nearest. */
+// how much more what varies along a curve tells of a row than the rest
+const FREE = 30;
+
+/** Return the row of a curve that is computed anew for one of it as it was: the same special point, or the same load. */
 function sameRow(before, row, now) {
   const label = before.special.get(row)?.label,
     same = now.specials.find((s) => s.label === label);
@@ -13,7 +16,9 @@ function sameRow(before, row, now) {
     if (!Number.isFinite(there)) continue;
     const finite = values.filter(Number.isFinite),
       range = finite.reduce((a, v) => Math.max(a, v), -Infinity) - finite.reduce((a, v) => Math.min(a, v), Infinity);
-    if (range > 0) for (let i = 0; i < now.rows; i++) far[i] += Math.min(1, Math.abs(values[i] - there) / range) ** 2;
+    const weight = name in now.free ? FREE : 1;
+    if (range > 0)
+      for (let i = 0; i < now.rows; i++) far[i] += (weight * Math.min(1, Math.abs(values[i] - there) / range)) ** 2;
   }
   return Math.max(0, far.indexOf(Math.min(...far)));
 }
