@@ -118,8 +118,9 @@ class Desk:
 
     def _document(self) -> dict[str, Any]:
         study, files = self._session.portable()
-        return assembled(self._stage, self._curves(), title=self._session.mechanism.name, study=study, files=files,
+        made = assembled(self._stage, self._curves(), title=self._session.mechanism.name, study=study, files=files,
                          values=self._session.now.common)
+        return {**made, "tables": self._session.names()}
 
     def _add(self, table: str, args: Mapping[str, Any]) -> dict[str, Any]:
         found = self._session.add(table, args)

@@ -319,3 +319,13 @@ def test_eigenvalues_come_after_the_curve_and_are_those_of_its_rows(live, overce
     branch = overcentre_branch(k_j=1000.0)
     expected = branch.special_points[0].eigenvalues.real
     assert sorted(found) == pytest.approx(sorted(expected), rel=1e-3, abs=1e-3)
+
+
+def test_what_a_study_cannot_name_is_not_offered(opened, overcentre_branch, tmp_path):
+    mc.continue_special(overcentre_branch(k_j=1000.0).point("LP1"), "l_us").save(tmp_path / "folds.h5")
+    with exploring(tmp_path / "folds.h5") as (_, address):
+        tab = opened(address, drawn="[data-panel=locus] .plot .line")
+        until(lambda: tab(IDLE))
+        choose(tab, "CP1", "folds")
+        for action, there in (("locus", False), ("sensitivities", False), ("branch", True)):
+            assert tab.page.locator(f"[data-action={action}]").is_enabled() is there, action

@@ -44,13 +44,16 @@ function turning(ys, quantity) {
 export function pointsOf(lines, selected) {
   const found = [];
   const many = new Set(lines.map((l) => l.curve)).size > LABELLED;
+  // a load path counts its jumps its own way: beside curves whose folds have names, theirs are the names
+  const named = lines.some((l) => l.curve.kind !== "loadpath" && l.curve.specials.length);
   for (const l of lines)
     for (const p of l.curve.specials) {
       if (p.kind === "EP") continue;
+      const told = l.key.endsWith("/0") && (!many || l.curve === selected) && !(named && l.curve.kind === "loadpath");
       found.push({
         x: l.xs[p.row],
         y: l.ys[p.row],
-        label: l.key.endsWith("/0") && (!many || l.curve === selected) ? p.label : "",
+        label: told ? p.label : "",
         kind: p.kind,
         name: p.name.replace(/^jump at /, ""),
         cls: l.curve === selected ? "" : "faint",

@@ -113,7 +113,8 @@ export class Live {
       take();
     };
     show();
-    return [[h("label", {}, "from", inputs[0]), h("label", {}, "to", inputs[1], unit)], show];
+    const ends = h("div", { class: "ends" }, h("label", {}, "from", inputs[0]), h("label", {}, "to", inputs[1], unit));
+    return [[ends], show];
   }
 
   field(f, values, changed) {
@@ -158,7 +159,7 @@ export class Live {
   }
 
   replace(document) {
-    this.store.replace({ ...document, tables: this.store.document.tables });
+    this.store.replace(document);
     this.offered = null;
     this.store.tell("curves");
     this.store.tell("curve");
