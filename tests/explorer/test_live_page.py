@@ -168,7 +168,7 @@ def test_a_motion_from_a_stable_row_moves_unless_told_otherwise(live):
 
 def test_a_branch_in_another_parameter_goes_between_the_bounds_that_are_typed(live):
     live("e.store.select(e.store.curves[0], 3);")
-    click(live, "branch", parameter="k_sp", **{"from": 5, "to": 20})
+    click(live, "branch", parameter="k_sp", low=5, high=20)
     found = live("const c = e.store.curve; return [c.id, c.free.k_sp, e.plots.diagram.axes.x];")
     assert found == ["equilibria", [5, 20], "k_sp"]
 

@@ -97,7 +97,7 @@ export class Live {
         ? null
         : given.map((v, k) => (v === "" ? own[k] : Number(v) / p.shown.scale));
     };
-    const inputs = ["from", "to"].map((word, k) => {
+    const inputs = ["low", "high"].map((word, k) => {
       const change = (e) => {
         given[k] = e.target.value;
         take();
@@ -113,7 +113,7 @@ export class Live {
       take();
     };
     show();
-    const ends = h("div", { class: "ends" }, h("label", {}, "from", inputs[0]), h("label", {}, "to", inputs[1], unit));
+    const ends = h("div", { class: "ends" }, h("label", {}, "low", inputs[0]), h("label", {}, "high", inputs[1], unit));
     return [[ends], show];
   }
 

@@ -5,7 +5,7 @@ import { byName, curveOf, unpack } from "./data.js";
 // how much more what varies along a curve tells of a row than the rest
 const FREE = 30;
 
-/** Return the row of a curve that is computed anew for one of it as it was: the same special point, or the same load. */
+/** Return the row of a curve computed anew for one of it as it was: the same special point, or the same load. */
 function sameRow(before, row, now) {
   const label = before.special.get(row)?.label,
     same = now.specials.find((s) => s.label === label);
