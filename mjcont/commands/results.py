@@ -101,7 +101,7 @@ def export(args: argparse.Namespace) -> int:
         from mjcont.explorer.page import write_page
 
         found = {Path(f): load(f) for f in args.files}
-        study = study_of(*next(iter(found.items())))
-        written = write_page(out, {p.stem: r for p, r in found.items()}, title=args.title, study=study)
+        study, files = study_of(*next(iter(found.items())))
+        written = write_page(out, {p.stem: r for p, r in found.items()}, title=args.title, study=study, files=files)
     say(f"written: {written}")
     return OK

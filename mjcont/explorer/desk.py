@@ -117,9 +117,10 @@ class Desk:
             self._send(EVERYBODY, {"event": "failed", "message": str(error)})
 
     def _document(self) -> dict[str, Any]:
-        now = self._session.now
-        return assembled(self._stage, self._curves(), title=self._session.mechanism.name, study=self._session.toml(),
-                         values=now.common)
+        study, files = self._session.portable()
+        made = assembled(self._stage, self._curves(), title=self._session.mechanism.name, study=study, files=files,
+                         values=self._session.now.common)
+        return {**made, "tables": self._session.names()}
 
     def _add(self, table: str, args: Mapping[str, Any]) -> dict[str, Any]:
         found = self._session.add(table, args)

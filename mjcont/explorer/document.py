@@ -8,6 +8,7 @@
     scene       shapes of the model (see `scene`); null for a plain vector field
     quantities  by name: label (parts with what stands below and behind), unit and scale as shown, role
     study       TOML that reproduces it; may be empty
+    files       texts of the files that the study names, by name: its model
     sliders     the model's own parameters, their values and ranges
     keyframes   names of the model's poses
     curves      see `curves`; each `parent` is the `id` of another
@@ -41,6 +42,7 @@ def document_of(
     *,
     title: str = "",
     study: str = "",
+    files: Mapping[str, str] | None = None,
     parents: Mapping[str, str] | None = None,
     spectra: bool = True,
 ) -> dict[str, Any]:
@@ -54,6 +56,8 @@ def document_of(
         Default the first result's model.
     study : str
         TOML that reproduces them.
+    files : mapping of name to text, optional
+        The files that the study names.
     parents : mapping of name to name, optional
         Which curve each began on; default the first branch of the same model for what begins on one.
     spectra : bool
@@ -62,22 +66,24 @@ def document_of(
     Raises
     ------
     MjcontError
-        If there is no result, or the explorer shows none of its kind.
+        If there is no result, the explorer shows none of its kind, or they are of several models.
     """
     flat = dict(_flat(results))
     if not flat:
         raise MjcontError("a page needs at least one result")
+    _refuse_mixed(flat)
     stage = Stage(next((p for p in map(problem_of, flat.values()) if p is not None), None))
     given = parents or {}
     curves: list[Curve] = []
     for name, result in flat.items():
         curves.append(curve_of(result, name, stage, given.get(name) or _parent(result, flat), spectra=spectra))
     return assembled(stage, curves, title=title or next((c["model"] for c in curves if c["model"]), next(iter(flat))),
-                     study=study)
+                     study=study, files=files)
 
 
 def assembled(
-    stage: Stage, curves: Sequence[Curve], *, title: str, study: str, values: Mapping[str, float] | None = None
+    stage: Stage, curves: Sequence[Curve], *, title: str, study: str, files: Mapping[str, str] | None = None,
+    values: Mapping[str, float] | None = None,
 ) -> dict[str, Any]:
     """Return curves as a document; `values` are those of the model's parameters, default the first curve's."""
     return {
@@ -88,6 +94,7 @@ def assembled(
         "scene": scene_of(stage),
         "quantities": quantities_of(curves),
         "study": study,
+        "files": dict(files or {}),
         "sliders": sliders_of(stage.problem, curves, values),
         "keyframes": [] if stage.problem is None else [*stage.problem.keyframes],
         "curves": list(curves),
@@ -100,6 +107,19 @@ def _flat(results: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
             yield from ((f"{name}_{i}", b) for i, b in enumerate(result.branches, 1))
         else:
             yield name, result
+
+
+def _refuse_mixed(results: Mapping[str, Any]) -> None:
+    """Raise an error unless all results are of one model."""
+    (first, one), *others = results.items()
+    for name, other in others:
+        texts = [getattr(problem_of(r), "mjcf", None) for r in (one, other)]
+        models = [str(getattr(problem_of(r), "name", "") or getattr(r, "name", "")) for r in (one, other)]
+        told = texts if all(texts) else models  # a field has no text, and some results do not know their model
+        if all(told) and told[0] != told[1]:
+            alike = ", another version of it" if models[0] == models[1] else ""
+            raise MjcontError(f"a page shows one model, but '{first}' is of {models[0]} and '{name}' of "
+                              f"{models[1]}{alike}: write a page for each")
 
 
 def problem_of(result: Any) -> Model | None:

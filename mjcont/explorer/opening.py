@@ -11,7 +11,7 @@ from typing import Any
 
 from mjcont.errors import MjcontError, ResultFileError, StudyError
 from mjcont.mechanism.mechanism import Mechanism
-from mjcont.models.loading import shipped_models
+from mjcont.models.loading import needs_files, read_source, shipped_models
 from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.settings import Settings
 from mjcont.results.branch import Branch
@@ -24,6 +24,7 @@ from mjcont.studies.schema import toml_text
 
 # s after which whoever opened a model would rather choose what to vary
 _SOON = 15.0
+_SETTINGS = frozenset(s.name for s in fields(Settings))
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,15 +99,36 @@ def _of_result(path: Path) -> Opened:
     return Opened(tables, {_called(path): result}, mechanism, computes=False)
 
 
-def study_of(path: Path, result: Any) -> str:
-    """Return the text of a study that computes a stored branch of equilibria again; empty for other results.
+def study_of(path: Path, result: Any) -> tuple[str, dict[str, str]]:
+    """Return the text of a study that computes a stored branch of equilibria again, and the files that it names.
 
-    Its model is the one in the file, beside which it is to lie.
+    Both are empty for other results, and for models that cannot be told in one text.
     """
     mechanism = getattr(result, "problem", None)
     if not isinstance(mechanism, Mechanism) or not isinstance(result, Branch) or result.kind != "equilibria":
-        return ""
-    return toml_text({"model": path.name, **_again(path, result, mechanism)})
+        return "", {}
+    told = told_model(mechanism)
+    if told is None:
+        return "", {}
+    model, files = told
+    return toml_text({"model": model, **_again(path, result, mechanism)}), files
+
+
+def told_model(mechanism: Mechanism) -> tuple[str, dict[str, str]] | None:
+    """Return what a study calls a model wherever it lies, and the texts of the files that go with it, by name.
+
+    A shipped model has its name; another is a file. None of a model that needs more files, or has parameters that were
+    declared in Python.
+    """
+    text, name = mechanism.mjcf, mechanism.name
+    if text is None or mechanism.declared:
+        return None
+    if name in shipped_models() and read_source(name)[0] == text:
+        return name, {}
+    if needs_files(text):
+        return None
+    file = f"{name if FILE_STEM.fullmatch(name) else 'model'}.xml"
+    return file, {file: text}
 
 
 def _called(path: Path) -> str:
@@ -126,11 +148,9 @@ def _again(path: Path, branch: Branch, mechanism: Mechanism) -> dict[str, Any]:
         "name": _called(path), "parameter": name, "bounds": [float(b) for b in bounds],
         "start": {name: float(branch[name][start])}, "state": [float(x) for x in branch.states[start]], **one_way,
     }
-    zeros, own = branch.settings.get("zeros"), {f.name for f in fields(Settings)}
-    if zeros:
-        table["zeros"] = dict(zeros)
-    if settings := {n: v for n, v in branch.settings.items() if n in own}:
-        table["settings"] = settings
+    settings = {n: v for n, v in branch.settings.items() if n in _SETTINGS}
+    zeros = {n: list(v) if isinstance(v, list | tuple) else v for n, v in branch.settings.get("zeros", {}).items()}
+    table |= {key: value for key, value in (("settings", settings), ("zeros", zeros)) if value}
     return {"parameters": fixed, "branch": [table]} if fixed else {"branch": [table]}
 
 

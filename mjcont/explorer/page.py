@@ -87,7 +87,7 @@ def to_html(path: str | Path, *results: Any, title: str = "", study: str = "") -
     path : str or Path
         Ends with ".html".
     *results : Branch, CycleBranch, LoadPath, History, Sensitivities, SpecialMap, BarrierCurve, or a Diagram
-        The first one's model is shown.
+        All of one model, which is shown.
     title : str
         Default the model's name.
     study : str
@@ -101,9 +101,15 @@ def to_html(path: str | Path, *results: Any, title: str = "", study: str = "") -
     return write_page(path, named(results), title=title, study=study)
 
 
-def write_page(path: str | Path, results: Mapping[str, Any], *, title: str = "", study: str = "") -> Path:
-    """Write results by name as one page, and return its path; the rest is as for `to_html`."""
+def write_page(
+    path: str | Path, results: Mapping[str, Any], *, title: str = "", study: str = "",
+    files: Mapping[str, str] | None = None,
+) -> Path:
+    """Write results by name as one page, and return its path; `files` are those that the study names, their texts.
+
+    The rest is as for `to_html`.
+    """
     place = checked_path(path)
     if place.suffix.lower() not in (".html", ".htm"):
         raise MjcontError(f"a page is written as .html, got '{place.name}'")
-    return write_file(place, page(document_of(results, title=title, study=study)))
+    return write_file(place, page(document_of(results, title=title, study=study, files=files)))

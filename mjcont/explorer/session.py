@@ -16,7 +16,7 @@ from typing import Any
 from mjcont.errors import BoundsError, MjcontError, ParameterError, StudyError
 from mjcont.explorer.clicks import TABLES, table_of
 from mjcont.explorer.hearing import Hearing, Tell
-from mjcont.explorer.opening import Opened, first_table
+from mjcont.explorer.opening import Opened, first_table, told_model
 from mjcont.mechanism.mechanism import Mechanism
 from mjcont.results.branch import Diagram
 from mjcont.results.model import check_bounds
@@ -84,7 +84,7 @@ class Session:
         results = dict(opened.results)
         said = dict.fromkeys((*self.mechanism.notes, *opened.notes, *notes))
         self.now = Moment(dict(opened.tables), common, results, notes=tuple(said))
-        self._given = {n: r for n, r in results.items() if n not in self._names()}
+        self._given = {n: r for n, r in results.items() if n not in self.names()}
 
     def _begun_with(self, opened: Opened) -> tuple[Mechanism, dict[str, float]]:
         """Return the model, and the values for all results."""
@@ -167,7 +167,7 @@ class Session:
         low, high = check_bounds(self.mechanism, name, None)
         if not low <= value <= high:
             raise BoundsError(f"{name} = {value} lies outside its range {low:g} .. {high:g}")
-        if not self._names():
+        if not self.names():
             raise MjcontError("there is nothing to compute anew: follow a branch first")
         self.stop.clear()
         before, click = self.now, f"{name} = {value:g}"
@@ -193,27 +193,34 @@ class Session:
         self.now = self._past.pop()
         self.tell_state()
 
-    def toml(self) -> str:
-        """Return the study as the text of its file."""
+    def portable(self) -> tuple[str, dict[str, str]]:
+        """Return the study as a text for another machine, and the files that it names; empty where that cannot be."""
+        told = told_model(self.mechanism)
+        return ("", {}) if told is None else (self.toml(told[0]), told[1])
+
+    def toml(self, model: str = "") -> str:
+        """Return the study as the text of its file; `model` is what it calls its model, default as it began."""
+        tables = {**self.now.tables, **({"model": model} if model else {})}
         stopped = (n for n, result in self.now.results.items() if interrupted(result))
         return _HEADER + "".join(f"# {n} was stopped; here it is computed whole.\n" for n in stopped) + "\n" + (
-            toml_text(self.now.tables))
+            toml_text(tables))
 
     def tell_state(self) -> None:
         """Tell what there is to click: whether something runs, what undo would drop, the study's tables."""
         self._tell({
             "event": "state", "running": self.running, "can_undo": bool(self._past),
-            "undo": self.now.click if self._past else "", "tables": self._names(), "notes": list(self.now.notes),
+            "undo": self.now.click if self._past else "", "tables": self.names(), "notes": list(self.now.notes),
         })
 
     # -- the study ---------------------------------------------------------------------------------------------
 
-    def _names(self) -> list[str]:
+    def names(self) -> list[str]:
+        """Return the names of the study's tables: what a further one can refer to."""
         return [t["name"] for key in _ORDER for t in self.now.tables.get(key, [])]
 
     def _free_name(self, table: str) -> str:
         """Return a name that the study has not yet: equilibria, equilibria_2, ...; locus_1, locus_2, ..."""
-        stem, taken = TABLES.get(table, table), {n.casefold() for n in [*self._names(), *self.now.results]}
+        stem, taken = TABLES.get(table, table), {n.casefold() for n in [*self.names(), *self.now.results]}
         numbers = (f"{stem}_{i}" for i in range(2 if table == "branch" else 1, len(taken) + 3))
         return next(n for n in ([stem] if table == "branch" else []) + [*numbers] if n not in taken)
 

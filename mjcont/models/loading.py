@@ -47,6 +47,11 @@ def shipped_models() -> list[str]:
     return sorted(p.stem for p in models_folder().glob("*.xml"))
 
 
+def needs_files(text: str) -> bool:
+    """Whether a model's text names other files."""
+    return bool(_NEEDS_FILES.search(text) or _OTHER_FILES.search(text))
+
+
 def located(source: str | Path) -> Path:
     """Return the file of a path or of a shipped model's name, whether there is one or not."""
     path = Path(source)

@@ -126,11 +126,16 @@ def test_what_begins_on_a_branch_names_it(branch):
     assert np.array_equal(unpacked(curves[1]["derivatives"]), found.derivatives)
 
 
-def test_a_result_of_another_model_is_drawn_without_poses_and_says_so(branch):
-    other = branch_of_cusp()
-    curve = document_of({"equilibria": branch, "other": other})["curves"][1]
-    assert curve["poses"] is None
-    assert any("another model" in n for n in curve["notes"])
+def test_results_of_several_models_are_refused_by_their_names(branch):
+    with pytest.raises(mc.MjcontError, match="one model, but 'equilibria' is of overcentre and 'other' of cusp"):
+        document_of({"equilibria": branch, "other": branch_of_cusp()})
+
+
+def test_another_version_of_a_model_is_another_model(branch):
+    text = branch.problem.mjcf.replace("</mujoco>", "<!-- changed --></mujoco>")
+    other = mc.continue_equilibria(mc.Mechanism.from_xml(text), "F", bounds=(-50, 50), start={"F": 50}, max_points=3)
+    with pytest.raises(mc.MjcontError, match="of overcentre, another version of it: write a page for each"):
+        document_of({"equilibria": branch, "changed": other})
 
 
 def test_a_kind_of_result_that_is_not_shown_is_refused_with_those_that_are(branch):

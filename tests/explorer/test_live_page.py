@@ -159,6 +159,35 @@ def test_a_motion_from_an_unstable_row_begins_beside_it_and_leaves(live):
     assert live.page.locator("[data-panel=motion]").is_visible()
 
 
+def test_a_motion_from_a_stable_row_moves_unless_told_otherwise(live):
+    live("e.store.select(e.store.curves[0], 3);")
+    click(live, "history", duration=2)
+    thetas = "const t = e.store.curves.find((c) => c.kind === 'history').columns.theta_1;"
+    assert live(thetas + "return Math.max(...t) - Math.min(...t);") > 0.01
+
+
+def test_a_branch_in_another_parameter_goes_between_the_bounds_that_are_typed(live):
+    live("e.store.select(e.store.curves[0], 3);")
+    click(live, "branch", parameter="k_sp", low=5, high=20)
+    found = live("const c = e.store.curve; return [c.id, c.free.k_sp, e.plots.diagram.axes.x];")
+    assert found == ["equilibria", [5, 20], "k_sp"]
+
+
+def test_a_value_that_is_typed_is_the_one_that_is_computed(live, overcentre_branch):
+    live.page.locator(".sliders summary").click()
+    field = live.page.get_by_label("k_sp in N/m")
+    assert float(field.input_value()) == 10.0
+    field.fill("12.34")
+    field.press("Enter")
+    done(live)
+    fold = curves(live)["rest"]["specials"][0]["values"]["F"]
+    assert fold == pytest.approx(overcentre_branch(k_j=1000.0, k_sp=12.34).point("LP1")["F"], rel=1e-9)
+    live.page.get_by_role("slider", name="m_1").press("ArrowRight")
+    done(live)
+    value = live("return e.store.document.sliders.find((p) => p.name === 'm_1').value;")
+    assert value == float(f"{value:.3g}") != 1.0
+
+
 def test_undo_takes_back_what_was_clicked(live):
     choose(live)
     click(live, "sensitivities")
@@ -290,3 +319,13 @@ def test_eigenvalues_come_after_the_curve_and_are_those_of_its_rows(live, overce
     branch = overcentre_branch(k_j=1000.0)
     expected = branch.special_points[0].eigenvalues.real
     assert sorted(found) == pytest.approx(sorted(expected), rel=1e-3, abs=1e-3)
+
+
+def test_what_a_study_cannot_name_is_not_offered(opened, overcentre_branch, tmp_path):
+    mc.continue_special(overcentre_branch(k_j=1000.0).point("LP1"), "l_us").save(tmp_path / "folds.h5")
+    with exploring(tmp_path / "folds.h5") as (_, address):
+        tab = opened(address, drawn="[data-panel=locus] .plot .line")
+        until(lambda: tab(IDLE))
+        choose(tab, "CP1", "folds")
+        for action, there in (("locus", False), ("sensitivities", False), ("branch", True)):
+            assert tab.page.locator(f"[data-action={action}]").is_enabled() is there, action

@@ -85,11 +85,30 @@ def test_export_writes_a_page_or_a_table_as_the_ending_says(stored, tmp_path, ca
 def test_an_exported_page_hands_out_a_study_that_finds_the_same_folds(stored, tmp_path, overcentre_branch):
     main(["export", str(stored), "-o", str(tmp_path / "page.html")])
     document = json.loads(inner((tmp_path / "page.html").read_text(encoding="utf-8"), 'id="document">'))
-    study = stored.parent / "study.toml"
-    study.write_text(document["study"], encoding="utf-8")
-    (again,) = mc.run_study(mc.load_study(study), tmp_path / "out")
+    (again,) = run_elsewhere(document, tmp_path / "elsewhere")
     for point in overcentre_branch(k_j=1e3).of_kind("LP"):
         assert again.point(point.label)["F"] == pytest.approx(point["F"], rel=1e-10)
+
+
+def run_elsewhere(document, folder):
+    """Run the study of a page where there is nothing but what the page hands out."""
+    folder.mkdir()
+    for name, text in {"study.toml": document["study"], **document["files"]}.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return mc.run_study(mc.load_study(folder / "study.toml"), folder / "out")
+
+
+def test_a_page_hands_out_the_model_that_its_study_names_and_the_zeros_that_were_asked_for(tmp_path):
+    text = mc.Mechanism.from_xml("overcentre").mjcf.replace('model="overcentre"', 'model="mine"')
+    branch = mc.continue_equilibria(mc.Mechanism.from_xml(text), "F", bounds=(-50, 50), start={"F": 50, "k_j": 1e3},
+                                    zeros={"theta_1": 0.0, "height": (0.5, 0.8)})
+    branch.save(tmp_path / "rest.h5")
+    main(["export", str(tmp_path / "rest.h5"), "-o", str(tmp_path / "page.html")])
+    document = json.loads(inner((tmp_path / "page.html").read_text(encoding="utf-8"), 'id="document">'))
+    assert document["files"] == {"mine.xml": text}
+    (again,) = run_elsewhere(document, tmp_path / "elsewhere")
+    assert len(branch.of_kind("UZ")) == len(again.of_kind("UZ")) >= 3
+    assert [p["F"] for p in again.of_kind("UZ")] == pytest.approx([p["F"] for p in branch.of_kind("UZ")], rel=1e-9)
 
 
 def test_export_refuses_other_endings_and_lists_those_it_writes(stored, tmp_path, capsys):

@@ -5,6 +5,10 @@ import { UNSTABLE, JUMPING } from "./data.js";
 // kinds of points whose curve in one more parameter can be followed, and those at which orbits begin
 const FOLLOWED = new Set(["LP", "HB", "BP", "CP", "BT", "LPC", "PD", "NS"]);
 const ORBITS = new Set(["HB", "PD", "BPC"]);
+// rad (or sizes of the model): how far beside a stable row a motion begins, so that there is one to see
+const BESIDE = 0.05;
+// actions whose tables name the curve
+const NAMING = new Set(["locus", "cycles", "switch", "sensitivities", "barriers"]);
 const WAYS = [
   ["up", "to the upper bound"],
   ["down", "to the lower bound"],
@@ -23,11 +27,23 @@ export function others(document, curve) {
 /**
  * Return what can be done at a row of a curve: [{id, label, table, fields, args(values), why}].
  *
- * `fields` are {name, label, kind: "choice" | "number", value, options, unit}; `why` says why it cannot be done now.
+ * `fields` are {name, label, kind: "choice" | "number", value, options, unit}; `bounded` gives `values` the `bounds` of
+ * a parameter, null for the model's own; `why` says why it cannot be done now.
  */
 export function actionsFor(document, curve, row, special) {
   if (!curve) return [ofModel(document)];
   if (!["branch", "locus", "loadpath", "orbits"].includes(curve.kind)) return [];
+  const found = actionsOf(document, curve, row, special),
+    why = "A study computes what it names: choose a curve that was computed here.";
+  return named(document, curve) ? found : found.map((a) => (NAMING.has(a.id) || a.names ? { ...a, why } : a));
+}
+
+/** Whether the session's study has a table of a curve: not of one that was opened from a file. */
+function named({ tables }, { id }) {
+  return !tables || tables.includes(id) || tables.includes(id.replace(/_\d+$/, ""));
+}
+
+function actionsOf(document, curve, row, special) {
   const found = [],
     choices = others(document, curve),
     point = special ? `${curve.id}:${special.label}` : "";
@@ -58,7 +74,8 @@ function ofModel(document) {
       { ...second(names), label: "parameter" },
       { name: "keyframe", label: "pose", kind: "choice", value: "", options: poses },
     ],
-    args: ({ parameter, keyframe }) => ({ parameter, keyframe: keyframe || null }),
+    bounded: true,
+    args: ({ parameter, keyframe, bounds }) => ({ parameter, bounds, keyframe: keyframe || null }),
   };
 }
 
@@ -125,9 +142,9 @@ function ofRow(curve, row, special, choices) {
   }
   found.push({
     id: "history",
-    label: unstable ? "Simulate from beside this row" : "Simulate from here",
+    label: "Simulate from beside this row",
     table: "histories",
-    fields: motion(unstable || Boolean(special)),
+    fields: motion(unstable || Boolean(special) ? 0.01 : BESIDE),
     args: ({ duration, nudge }) => ({ row: here, duration, nudge: nudge || null }),
   });
   if (choices.length)
@@ -136,15 +153,17 @@ function ofRow(curve, row, special, choices) {
       label: "Vary another parameter",
       table: "branch",
       fields: [{ ...second(choices), label: "parameter" }],
-      args: ({ parameter }) => ({ row: here, parameter }),
+      bounded: true,
+      args: ({ parameter, bounds }) => ({ row: here, parameter, bounds }),
     });
   return found;
 }
 
-function motion(nudged) {
+/** Return the fields of a motion, nudged along the mode that grows fastest or, where none does, the slowest. */
+function motion(nudge) {
   return [
     { name: "duration", label: "duration", kind: "number", value: 10, unit: "s" },
-    { name: "nudge", label: "nudge", kind: "number", value: nudged ? 0.01 : 0, unit: "rad" },
+    { name: "nudge", label: "nudge", kind: "number", value: nudge, unit: "rad" },
   ];
 }
 
@@ -155,6 +174,7 @@ function motionOf(curve, row) {
     label: "Simulate from this orbit",
     table: "histories",
     fields: [],
+    names: true,
     args: () => ({ row: { curve: curve.id, row } }),
     why: label ? "" : "Choose a labelled orbit, the first or the last.",
   };

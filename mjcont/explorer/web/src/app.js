@@ -76,7 +76,7 @@ function follow(mechanism, store, panel) {
   store.on("row", here);
   store.on("curve", here);
   store.on("curves", () => {
-    if (!mechanism.framed || mechanism.framed[0] === mechanism.scene.pose) frameAll();
+    if (mechanism.untouched) frameAll();
     here();
   });
   frameAll();
@@ -98,19 +98,25 @@ function posesOf(curve) {
     Array.from({ length: Math.min(most, count) }, (_, k, n = Math.min(most, count)) =>
       Math.round((k * (count - 1)) / Math.max(n - 1, 1)),
     );
-  const rows = even(curve.rows, FRAMED);
-  if (!curve.orbit?.poses) return rows.map((row) => poseOf(curve, row));
+  if (!curve.orbit?.poses) return even(curve.rows, FRAMED).map((row) => poseOf(curve, row));
   const samples = even(curve.orbit.poses.shape[1], 12);
-  return rows.slice(-6).flatMap((row) => samples.map((sample) => poseOfOrbit(curve, row, sample)));
+  return [...curve.orbit.rows].flatMap((row) => samples.map((sample) => poseOfOrbit(curve, row, sample)));
 }
 
 function buttons(host, store) {
-  const { study, title } = store.document;
+  const { study, files, title } = store.document;
   if (study && !store.live)
     host.append(
       h(
         "button",
-        { class: "take study", onclick: () => give("study.toml", store.document.study, "text/plain") },
+        {
+          class: "take study",
+          title: ["study.toml", ...Object.keys(files ?? {})].join(" and "),
+          onclick: () => {
+            give("study.toml", study, "text/plain");
+            for (const [name, text] of Object.entries(files ?? {})) give(name, text, "text/xml");
+          },
+        },
         "study.toml",
       ),
     );

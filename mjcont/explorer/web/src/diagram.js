@@ -44,13 +44,16 @@ function turning(ys, quantity) {
 export function pointsOf(lines, selected) {
   const found = [];
   const many = new Set(lines.map((l) => l.curve)).size > LABELLED;
+  // a load path counts its jumps its own way: beside curves whose folds have names, theirs are the names
+  const named = lines.some((l) => l.curve.kind !== "loadpath" && l.curve.specials.length);
   for (const l of lines)
     for (const p of l.curve.specials) {
       if (p.kind === "EP") continue;
+      const told = l.key.endsWith("/0") && (!many || l.curve === selected) && !(named && l.curve.kind === "loadpath");
       found.push({
         x: l.xs[p.row],
         y: l.ys[p.row],
-        label: l.key.endsWith("/0") && (!many || l.curve === selected) ? p.label : "",
+        label: told ? p.label : "",
         kind: p.kind,
         name: p.name.replace(/^jump at /, ""),
         cls: l.curve === selected ? "" : "faint",
@@ -69,7 +72,8 @@ export class Diagram {
       (curve, row) => store.select(curve, row),
       () => store.curve,
     );
-    for (const event of ["curves", "curve"]) store.on(event, () => this.draw());
+    store.on("curves", () => this.draw());
+    store.on("curve", () => this.turn());
     store.on("row", () => this.mark());
     store.on("partial", (curve) => this.grow(curve));
     this.draw();
@@ -86,6 +90,19 @@ export class Diagram {
     if (!first) return;
     this.axes ??= { x: first.axes[0], y: first.axes[1] };
     this.offer();
+    this.draw();
+  }
+
+  /** Take the axes of a curve that is selected where it would be a line straight up, or none. */
+  turn() {
+    const { curve } = this.store,
+      own = this.axes && KINDS.includes(curve?.kind);
+    const [x, y] = own ? [curve.columns[this.axes.x], drawnColumns(curve, this.axes.y).length] : [true, true];
+    if (!x || !y) {
+      this.axes = { x: x ? this.axes.x : curve.axes[0], y: y ? this.axes.y : curve.axes[1] };
+      this.plot.resetZoom();
+      this.offer();
+    }
     this.draw();
   }
 

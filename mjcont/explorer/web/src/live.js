@@ -8,6 +8,8 @@ import { nameInto, shown } from "./words.js";
 
 const STEPS = 200;
 const DECADES = 1000;
+// digits of a value that a slider gives
+const ROUNDED = 3;
 
 export class Live {
   constructor(made, store, transport) {
@@ -63,6 +65,7 @@ export class Live {
         now = actionsFor(document, curve, row, special).find((a) => a.id === action.id);
       if (now && !now.why) this.add(now.table, now.args(values));
     };
+    const [ends, show] = action.bounded ? this.bounds(values) : [[], () => undefined];
     const named = (f) => (f.kind === "choice" ? "" : h("span", {}, f.label));
     const button = h(
       "button",
@@ -70,19 +73,55 @@ export class Live {
       action.label,
     );
     const fields = action.fields.map((f) =>
-      h("label", {}, named(f), this.field(f, values), f.unit ? h("span", { class: "unit" }, f.unit) : ""),
+      h("label", {}, named(f), this.field(f, values, show), f.unit ? h("span", { class: "unit" }, f.unit) : ""),
     );
     return h(
       "div",
-      { class: `entry ${fields.length > 1 ? "wide" : ""}` },
+      { class: `entry ${fields.length + ends.length > 1 ? "wide" : ""}` },
       button,
       ...fields,
+      ...ends,
       action.why ? h("p", { class: "why" }, action.why) : "",
     );
   }
 
-  field(f, values) {
-    const take = (value) => (values[f.name] = value);
+  /** Return fields for the ends of a branch, and what fits them to another parameter; empty ones are the model's. */
+  bounds(values) {
+    const given = ["", ""],
+      unit = h("span", { class: "unit" });
+    const slider = () => this.store.document.sliders.find((p) => p.name === values.parameter);
+    const take = () => {
+      const p = slider(),
+        own = [p.lower, p.upper];
+      values.bounds = given.every((v) => v === "")
+        ? null
+        : given.map((v, k) => (v === "" ? own[k] : Number(v) / p.shown.scale));
+    };
+    const inputs = ["low", "high"].map((word, k) => {
+      const change = (e) => {
+        given[k] = e.target.value;
+        take();
+      };
+      return h("input", { type: "number", step: "any", "aria-label": word, onchange: change });
+    });
+    const show = () => {
+      const p = slider();
+      if (!p) return;
+      for (const [k, input] of inputs.entries())
+        input.placeholder = String(Number(([p.lower, p.upper][k] * p.shown.scale).toPrecision(3)));
+      unit.textContent = p.shown.unit;
+      take();
+    };
+    show();
+    const ends = h("div", { class: "ends" }, h("label", {}, "low", inputs[0]), h("label", {}, "high", inputs[1], unit));
+    return [[ends], show];
+  }
+
+  field(f, values, changed) {
+    const take = (value) => {
+      values[f.name] = value;
+      changed();
+    };
     if (f.kind === "choice") return select(f.label, f.options, f.value, take);
     return h("input", {
       type: "number",
@@ -151,10 +190,25 @@ export class Live {
   slider(p) {
     const log = p.lower > 0 && p.upper / p.lower > DECADES,
       name = h("span", { class: "name" }),
-      value = h("output", {}, shown(p.value, p.shown, 4));
+      { scale, unit } = p.shown;
+    const inUnit = (v) => String(Number((v * scale).toPrecision(6)));
+    const give = async (value) => {
+      const document = await this.ask("set", { name: p.name, value: Math.min(p.upper, Math.max(p.lower, value)) });
+      if (document?.curves) this.replace(document);
+      else if (document) await this.reload();
+      else this.fillSliders();
+    };
+    const value = h("input", {
+      type: "number",
+      step: "any",
+      value: inUnit(p.value),
+      "aria-label": unit ? `${p.name} in ${unit}` : p.name,
+      onchange: () => (value.value === "" ? this.fillSliders() : give(Number(value.value) / scale)),
+    });
     const there = (v) =>
       log ? Math.log(v / p.lower) / Math.log(p.upper / p.lower) : (v - p.lower) / (p.upper - p.lower);
     const back = (t) => (log ? p.lower * (p.upper / p.lower) ** t : p.lower + t * (p.upper - p.lower));
+    const round = (v) => Number((v * scale).toPrecision(ROUNDED)) / scale;
     nameInto(name, p.shown, p.name);
     const input = h("input", {
       type: "range",
@@ -165,17 +219,13 @@ export class Live {
       "aria-label": p.name,
       "aria-valuetext": shown(p.value, p.shown, 4),
       oninput: () => {
-        value.textContent = shown(back(input.value / STEPS), p.shown, 4);
-        input.setAttribute("aria-valuetext", value.textContent);
+        const now = round(back(input.value / STEPS));
+        value.value = inUnit(now);
+        input.setAttribute("aria-valuetext", shown(now, p.shown, 4));
       },
-      onchange: async () => {
-        const document = await this.ask("set", { name: p.name, value: back(input.value / STEPS) });
-        if (document?.curves) this.replace(document);
-        else if (document) await this.reload();
-        else this.fillSliders();
-      },
+      onchange: () => give(round(back(input.value / STEPS))),
     });
-    return h("label", { class: "slider" }, name, input, value);
+    return h("div", { class: "slider" }, name, input, value, h("span", { class: "unit" }, unit));
   }
 
   // -- how it goes ----------------------------------------------------------------------------------------------
@@ -233,7 +283,9 @@ export class Live {
       });
   }
 
-  state({ can_undo: can, undo, running, notes }) {
+  state({ can_undo: can, undo, running, notes, tables }) {
+    this.store.document.tables = tables;
+    this.offer();
     this.store.canUndo = can;
     this.undo.disabled = this.busy > 0 || !can;
     this.undo.title = undo ? `Undo ${undo}` : "";

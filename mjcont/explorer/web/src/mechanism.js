@@ -27,13 +27,15 @@ export function sceneOf(scene) {
   return { ...scene, meshes, pose };
 }
 
-/** Return spheres [x, y, z, radius] round the shapes of poses: what a view must hold. */
+/** Return spheres [x, y, z, radius] round the shapes and tendons of poses: what a view must hold. */
 export function spheresOf(scene, poses) {
   const found = [],
     p = new Vector3(),
     own = scene.geoms.map((g) => spheresOn(g, scene.meshes));
   for (const [k, g] of scene.geoms.entries()) if (g.body < 0) found.push(...own[k]);
-  for (const { bodies } of poses)
+  const widths = scene.tendons.flatMap((t) => Array(t.points).fill(t.width));
+  for (const { bodies, tendons } of poses) {
+    for (const [k, r] of widths.entries()) if (tendons) found.push([...tendons.subarray(3 * k, 3 * k + 3), r]);
     for (const [k, g] of scene.geoms.entries()) {
       if (g.body < 0) continue;
       const [x, y, z, w, i, j, l] = bodies.subarray(7 * g.body, 7 * g.body + 7);
@@ -42,6 +44,7 @@ export function spheresOf(scene, poses) {
         found.push([p.x + x, p.y + y, p.z + z, r]);
       }
     }
+  }
   return found;
 }
 
@@ -104,6 +107,7 @@ export class Mechanism {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener("change", () => this.ask());
+    this.controls.addEventListener("start", () => (this.untouched = false));
     canvas.addEventListener("dblclick", () => this.frame());
     new ResizeObserver(() => this.fit()).observe(this.host);
   }
@@ -147,6 +151,7 @@ export class Mechanism {
   /** Look so that all of some poses is seen. */
   frame(poses = this.framed ?? []) {
     this.framed = poses;
+    this.untouched = true;
     const spheres = spheresOf(this.scene, poses);
     if (!this.renderer) {
       this.stick.frame(spheres);
@@ -157,7 +162,6 @@ export class Mechanism {
     this.direction = toward.clone();
     if (this.scene.planar) this.direction.addScaledVector(right, SIDE).addScaledVector(up, ABOVE);
     this.direction.normalize();
-    this.untouched = true;
     this.fit();
   }
 

@@ -25,7 +25,7 @@ export class Plot {
     this.svg = s("svg", { class: "plot", role: "img", "aria-label": label });
     this.box = s("rect");
     this.layers = Object.fromEntries(
-      ["grid", "x", "y", "lines", "over", "points", "labels"].map((n) => [n, s("g", { class: n })]),
+      ["grid", "x", "y", "lines", "over", "labels", "points"].map((n) => [n, s("g", { class: n })]),
     );
     this.layers.lines.setAttribute("clip-path", `url(#${this.clip})`);
     this.layers.over.setAttribute("clip-path", `url(#${this.clip})`);
@@ -202,23 +202,23 @@ export class Plot {
         transform: `translate(${p.px.toFixed(1)},${p.py.toFixed(1)})`,
       }),
     );
-    this.layers.points.replaceChildren(...marks);
     const [x0, y0, x1, y1] = this.inner;
     const shifted = seen.filter((p) => p.label).map((p) => ({ ...p, px: p.px - x0, py: p.py - y0 }));
     const placed = placeLabels(
       shifted,
       this.ink.map(([a, b]) => [a - x0, b - y0]),
       [x1 - x0, y1 - y0],
-    );
+      seen.map((p) => [p.px - x0, p.py - y0]),
+    ).filter((p) => !p.hidden);
     this.layers.labels.replaceChildren(
-      ...placed
-        .filter((p) => !p.hidden)
-        .map((p) => {
-          const text = s("text", { x: p.lx + x0, y: p.ly + y0, "text-anchor": "middle" });
-          text.textContent = p.text;
-          return text;
-        }),
+      ...placed.filter((p) => p.led).map(({ led: [a, b, c, d] }) => line(a + x0, b + y0, c + x0, d + y0)),
+      ...placed.map((p) => {
+        const text = s("text", { x: p.lx + x0, y: p.ly + y0, "text-anchor": "middle" });
+        text.textContent = p.text;
+        return text;
+      }),
     );
+    this.layers.points.replaceChildren(...marks);
   }
 
   /** Put the marker at a place as shown, [x, y]; hide it for null. */

@@ -19,25 +19,20 @@ export class Readout {
     this.held = h("details", { class: "held" });
     this.notes = h("details", { class: "notes" });
     this.curves = h("div", { class: "curves", role: "group", "aria-label": "Curves" });
+    this.heading = h("div", { class: "heading" }, this.title, this.badge);
     const head = h(
       "thead",
       { class: "visually-hidden" },
       h("tr", {}, h("th", { scope: "col" }, "quantity"), h("th", { scope: "col" }, "value")),
     );
-    host.append(
-      this.curves,
-      h("div", { class: "heading" }, this.title, this.badge),
-      this.live,
-      this.chips,
-      this.about,
-      h(
-        "table",
-        { class: "values" },
-        h("caption", { class: "visually-hidden" }, "Values of the selected row"),
-        head,
-        this.table,
-      ),
+    this.values = h(
+      "table",
+      { class: "values" },
+      h("caption", { class: "visually-hidden" }, "Values of the selected row"),
+      head,
+      this.table,
     );
+    host.append(this.curves, this.heading, this.live, this.chips, this.about, this.values);
     this.after = [this.held, this.notes];
     for (const event of ["curves", "curve"]) store.on(event, () => this.begin());
     store.on("row", () => this.follow());
@@ -50,6 +45,7 @@ export class Readout {
       curves.filter((c) => c.rows),
       curve,
     );
+    for (const part of [this.badge, this.held, this.notes, this.heading, this.values]) part.hidden = !curve;
     if (!curve) return;
     this.names = Object.keys(curve.columns).filter((n) => n !== "time" || curve.kind === "history");
     this.cells = this.names.map((name) => {
@@ -83,7 +79,7 @@ export class Readout {
 
   /** Offer the curves: a button each, or a list where they are many. */
   offerCurves(curves, now) {
-    const go = (c) => this.store.select(c, c === now ? this.store.row : (c.start ?? 0));
+    const go = (c) => this.store.select(c, c === now ? this.store.row : this.store.rowOf(c));
     const button = (c) =>
       h("button", { class: `curve-chip ${c.kind}`, "aria-pressed": String(c === now), onclick: () => go(c) }, c.name);
     const list = () =>
@@ -108,7 +104,7 @@ export class Readout {
       return h("tr", {}, head, h("td", {}, value === null ? "–" : shown(value, slider?.shown ?? quantities[name])));
     });
     this.held.replaceChildren(
-      h("summary", {}, `Held: ${held.length} parameters`),
+      h("summary", {}, `Held: ${held.length} ${held.length === 1 ? "parameter" : "parameters"}`),
       h("table", { class: "values" }, h("tbody", {}, ...rows)),
     );
   }
@@ -136,7 +132,7 @@ export class Readout {
     this.about.hidden = !special;
     if (special) this.about.textContent = special.facts;
     for (const chip of this.chips.children) chip.setAttribute("aria-pressed", String(Number(chip.dataset.row) === row));
-    if (special && this.said !== special.label) this.live.textContent = `${special.label}, ${special.name}`;
+    if (this.said !== special?.label) this.live.textContent = special ? `${special.label}, ${special.name}` : "";
     this.said = special?.label;
   }
 }

@@ -2,10 +2,32 @@
 
 import { byName, curveOf, unpack } from "./data.js";
 
+// how much more what varies along a curve tells of a row than the rest
+const FREE = 30;
+
+/** Return the row of a curve computed anew for one of it as it was: the same special point, or the same load. */
+function sameRow(before, row, now) {
+  const label = before.special.get(row)?.label,
+    same = now.specials.find((s) => s.label === label);
+  if (label && same) return same.row;
+  const far = new Float64Array(now.rows);
+  for (const [name, values] of Object.entries(now.columns)) {
+    const there = before.columns[name]?.[row];
+    if (!Number.isFinite(there)) continue;
+    const finite = values.filter(Number.isFinite),
+      range = finite.reduce((a, v) => Math.max(a, v), -Infinity) - finite.reduce((a, v) => Math.min(a, v), Infinity);
+    const weight = name in now.free ? FREE : 1;
+    if (range > 0)
+      for (let i = 0; i < now.rows; i++) far[i] += (weight * Math.min(1, Math.abs(values[i] - there) / range)) ** 2;
+  }
+  return Math.max(0, far.indexOf(Math.min(...far)));
+}
+
 export class Store {
   constructor(document) {
     this.listeners = new Map();
     this.timings = [];
+    this.left = new Map();
     this.live = false;
     this.running = false;
     this.canUndo = false;
@@ -14,13 +36,14 @@ export class Store {
 
   /** Take another document; the selection stays where its curve does. */
   replace(document) {
-    const before = this.curve?.id;
+    const before = this.curve,
+      row = this.row;
     this.document = document;
     this.quantities = byName(document.quantities);
     this.curves = document.curves.map(curveOf);
-    const start = this.curves.find((c) => c.id === before) ?? this.curves.find((c) => c.rows) ?? null;
+    const start = this.curves.find((c) => c.id === before?.id) ?? this.curves.find((c) => c.rows) ?? null;
     this.curve = start;
-    this.row = start ? Math.min(before === start.id ? this.row : (start.start ?? 0), start.rows - 1) : 0;
+    this.row = !start ? 0 : before?.id === start.id ? sameRow(before, row, start) : this.rowOf(start);
     this.sample = 0;
   }
 
@@ -68,12 +91,18 @@ export class Store {
     const begun = performance.now(),
       other = curve !== this.curve;
     const now = Math.max(0, Math.min(curve.rows - 1, row));
+    if (other && this.curve) this.left.set(this.curve.id, this.row);
     if (!other && now === this.row && sample === this.sample) return;
     [this.curve, this.row, this.sample] = [curve, now, sample];
     if (other) this.tell("curve");
     this.tell("row");
     this.timings.push(performance.now() - begun);
     if (this.timings.length > 1000) this.timings.shift();
+  }
+
+  /** Return the row of a curve at which it was left, or its start. */
+  rowOf(curve) {
+    return Math.min(this.left.get(curve.id) ?? curve.start ?? 0, curve.rows - 1);
   }
 
   /** Return the special point of the row, if it is one. */

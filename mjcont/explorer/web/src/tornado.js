@@ -61,6 +61,7 @@ export class Tornado {
     const label = h("span", { class: "bar-name" }),
       part = (100 * Math.abs(change)) / largest;
     nameInto(label, quantities[name], name);
+    label.append(h("small", {}, `+ ${tolerance}`));
     const fill = h("span", { class: `bar-fill ${change < 0 ? "minus" : "plus"}` });
     fill.style.width = `${Math.max(part / 2, 0.4)}%`;
     const words = `${change < 0 ? "\u2212" : change > 0 ? "+" : ""}${shown(Math.abs(change), moved, 3)}`;
