@@ -259,7 +259,7 @@ class _Run:
             local = self._local(x, u)
             dx, shortest, tol = self._step(local, u, off, load, aim)
             last, size = size, float(np.linalg.norm(dx))
-            if not np.isfinite(size):
+            if not (np.isfinite(size) and np.isfinite(shortest.u).all()):
                 break
             part = min(1.0, _REACH / size) if size > 0.0 else 1.0
             if problem.nonsmooth:

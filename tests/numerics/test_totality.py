@@ -8,13 +8,14 @@ import pkgutil
 
 import numpy as np
 import pytest
-from problems import failing_orbits
-from problems.failing import BAD, CASES, PLAIN, Bad, walk
+from problems import failing, failing_orbits, failing_variants
+from problems.failing import BAD, CASES, Bad, walk
 
 import mjcont as mc
 import mjcont.numerics
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.points import events
+from mjcont.numerics.search import leastnorm
 from mjcont.numerics.spectra import stability
 from mjcont.numerics.step.arclength import next_step
 from mjcont.numerics.walk import guard, onebyone
@@ -31,7 +32,8 @@ def public_names():
 
 
 def test_every_public_routine_of_the_numerics_is_made_to_fail():
-    assert set(public_names()) == set(CASES) | PLAIN | set(failing_orbits.CASES) | failing_orbits.PLAIN
+    rooms = failing, failing_orbits, failing_variants
+    assert set(public_names()) == {name for room in rooms for name in (*room.CASES, *room.PLAIN)}
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -46,6 +48,13 @@ def test_a_routine_for_orbits_returns_where_it_can_compute_nothing(name):
     with np.errstate(all="ignore"):
         for bad in failing_orbits.BAD:
             failing_orbits.CASES[name](bad)
+
+
+@pytest.mark.parametrize("name", failing_variants.CASES)
+def test_a_routine_for_variants_returns_where_it_can_compute_nothing(name):
+    with np.errstate(all="ignore"):
+        for bad in failing_variants.BAD:
+            failing_variants.CASES[name](bad)
 
 
 # -- what is said -------------------------------------------------------------------------------------------------
@@ -87,6 +96,24 @@ def test_a_pencil_without_eigenvalues_is_marginal_and_they_are_nan(bad):
 def test_a_solution_between_points_that_coincide_is_not_between_them():
     bad = Bad("zero", 2, False)
     assert events.within(bad.system, bad.point(), bad.point(), bad.corrected) is None
+
+
+ONES = np.ones(2)
+
+
+@pytest.mark.parametrize("question", [
+    (np.full((1, 2), np.nan), ONES[:1], -ONES, ONES), (np.full((1, 2), np.inf), ONES[:1], -ONES, ONES),
+    (ONES[None], np.full(1, np.nan), -ONES, ONES), (ONES[None], ONES[:1], np.nan * ONES, ONES),
+    (ONES[None], ONES[:1], -ONES, np.nan * ONES), (ONES[None], ONES[:1], np.inf * ONES, np.inf * ONES),
+])  # fmt: skip
+def test_the_shortest_vector_is_nan_without_equations_or_bounds(question):
+    found = leastnorm.least_norm(*question, 1e-9)
+    assert np.isnan(np.concatenate([found.u, found.left, found.wanted, found.left_unbounded])).all()
+
+
+def test_the_shortest_vector_is_nan_in_a_metric_of_less_than_full_rank():
+    found = leastnorm.least_norm(ONES[None], ONES[:1], -ONES, ONES, 1e-9, (np.zeros((2, 2)), ONES))
+    assert np.isnan(found.u).all() and np.isnan(found.wanted).all()
 
 
 def test_an_error_that_nobody_expected_ends_a_curve_with_a_status_and_keeps_its_points(monkeypatch):

@@ -125,7 +125,7 @@ class Directions:
         along = (self._unit(v)[:, None] * NODES)[:, :, None] * v[:, None]
         e = _ASIDE * np.diag(self.scale)
         steps = np.stack([e, -e])[None, :, :, None] + along[:, None, None]
-        found: Array = steps.reshape(len(v), -1, len(self.scale))
+        found: Array = steps.reshape(len(v), 2 * len(e) * len(NODES), len(e))
         return found
 
     def third(self, rows: Array, v: Array) -> Array:

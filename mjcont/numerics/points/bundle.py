@@ -118,8 +118,8 @@ class Bundle:
         self.n, self.k, self.count = problem.n, values.shape[1], len(x)
         self.cusp, self.x = self.k == 2, x
         pairs = [list(zip(f, row, strict=True)) for f, row in zip(free, values.tolist(), strict=True)]
-        self.y = np.array([[p.coordinate(v) for p, v in own] for own in pairs])
-        self._steps = np.array([[self._step(p, v) for p, v in own] for own in pairs])
+        self.y = np.array([[p.coordinate(v) for p, v in own] for own in pairs]).reshape(values.shape)
+        self._steps = np.array([[self._step(p, v) for p, v in own] for own in pairs]).reshape(values.shape)
         self.counts = np.zeros(self.count, dtype=int)
         self._scale, self._along = problem.state_scale, Directions(problem.state_scale)
         self._every_step = np.vstack([np.zeros((1, self.n)), jacobian_steps(self._scale, FOURTH_ORDER)])[None]
