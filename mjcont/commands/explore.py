@@ -20,10 +20,9 @@ def register(command: Command) -> None:
 
 
 def _port(text: str) -> int:
-    number = int(text)
-    if not 0 <= number < 2**16:
-        raise ValueError
-    return number
+    if not (text.isdecimal() and int(text) < 2**16):
+        raise argparse.ArgumentTypeError(f"a port is a whole number from 0 to 65535, got '{text}'")
+    return int(text)
 
 
 def explore(args: argparse.Namespace) -> int:

@@ -30,6 +30,13 @@ def test_a_label_in_small_letters_is_asked_about(fails: Fails, here: Path) -> No
     assert "Did you mean LP1" in fails("run", "study.toml")
 
 
+@pytest.mark.parametrize("port", ["80000", "-1", "http"])
+def test_a_port_that_is_none_is_told_with_what_is_one(capsys: pytest.CaptureFixture[str], port: str) -> None:
+    with pytest.raises(SystemExit):
+        main(["explore", "overcentre", f"--port={port}"])
+    assert f"a port is a whole number from 0 to 65535, got '{port}'" in capsys.readouterr().err
+
+
 def test_a_missing_model_lists_those_that_ship(fails: Fails) -> None:
     for command in ("inspect", "view"):
         said = fails(command, "overcenter")

@@ -3,6 +3,7 @@
 import os
 import signal
 import sys
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -17,6 +18,18 @@ pytestmark = [
     pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc"),
 ]
 SLOW = {"ds": 1e-4, "ds_max": 1e-4}
+
+
+@contextmanager
+def computing():
+    """A session that follows a branch in short steps: the command's process, a page that hears of its points."""
+    with exploring("overcentre") as (run, address), page(address) as talk:
+        talk.ask("document")
+        talk.idle()
+        table = {"parameter": "F", "bounds": [-50, 50], "start": {"F": 0}, "settings": SLOW}
+        talk.send("add", table="branch", args=table)
+        until(lambda: talk.hear().get("partial"))
+        yield run, talk
 
 
 def test_a_session_without_a_browser_computes_what_python_computes():
@@ -52,12 +65,7 @@ def test_the_session_ends_when_the_page_is_closed_and_begins_again_where_it_was(
 
 
 def test_stopping_keeps_the_points_so_far():
-    with exploring("overcentre") as (_, address), page(address) as talk:
-        talk.ask("document")
-        talk.idle()
-        talk.send("add", table="branch", args={"parameter": "F", "bounds": [-50, 50], "start": {"F": 0},
-                                               "settings": SLOW})
-        until(lambda: talk.hear().get("partial"))
+    with computing() as (_, talk):
         talk.ask("cancel")
         until(lambda: any(e.get("notes") for e in talk.events) or (talk.hear() and False))
         curves = {c["id"]: c for c in talk.ask("document")["curves"]}
@@ -66,11 +74,7 @@ def test_stopping_keeps_the_points_so_far():
 
 
 def test_what_only_reads_is_answered_while_something_runs():
-    with exploring("overcentre") as (_, address), page(address) as talk:
-        talk.ask("document")
-        talk.idle()
-        talk.send("add", table="branch", args={"parameter": "F", "start": {"F": 0}, "settings": SLOW})
-        until(lambda: talk.hear().get("partial"))
+    with computing() as (_, talk):
         assert "model" in talk.ask("toml")
         assert [e for e in talk.events if e["event"] == "state"][-1]["running"]
         talk.ask("cancel")
@@ -78,30 +82,20 @@ def test_what_only_reads_is_answered_while_something_runs():
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_ctrl_c_is_quiet_and_leaves_nothing(number):
-    with exploring("overcentre") as (run, address):
-        with page(address) as talk:
-            talk.ask("document")
-            talk.idle()
-            talk.send("add", table="branch", args={"parameter": "F", "start": {"F": 0}, "settings": SLOW})
-            until(lambda: talk.hear().get("partial"))
-            started = children(run.pid)
-            assert started
-            run.send_signal(number)
-            assert run.wait(timeout=30) == (0 if number == signal.SIGINT else 143)
+    with computing() as (run, _):
+        started = children(run.pid)
+        assert started
+        run.send_signal(number)
+        assert run.wait(timeout=30) == (0 if number == signal.SIGINT else 143)
         assert run.stderr.read() == ""
         until(lambda: not any(map(lives, started)))
 
 
 def test_killing_the_server_leaves_nothing():
-    with exploring("overcentre") as (run, address):
-        with page(address) as talk:
-            talk.ask("document")
-            talk.idle()
-            talk.send("add", table="branch", args={"parameter": "F", "start": {"F": 0}, "settings": SLOW})
-            until(lambda: talk.hear().get("partial"))
-            started = children(run.pid)
-            assert started
-            run.kill()
+    with computing() as (run, _):
+        started = children(run.pid)
+        assert started
+        run.kill()
         until(lambda: not any(map(lives, started)))
 
 

@@ -122,9 +122,8 @@ class Bad:
         return defining.Fold(self.local)
 
     def hopf_system(self):
-        full = system.System(
-            self.problem, self.values, [self.free, Free("q", 0.0, 2.0)], [defining.Hopf(self.local, 1.0)], True
-        )
+        free = [self.free, Free("q", 0.0, 2.0)]
+        full = system.System(self.problem, self.values, free, [defining.Hopf(self.local, 1.0)], True)
         return full, full.conditions[0]
 
 
