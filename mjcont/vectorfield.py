@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import inspect
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Self
@@ -13,6 +12,7 @@ from scipy import sparse
 
 from mjcont.arguments import checked
 from mjcont.errors import FunctionError, MjcontError, ParameterError, leaves_domain, unknown_name
+from mjcont.fields.functions import as_columns, beside, check_columns, merged, raised, takes_time
 from mjcont.numerics.equations.clock import TimeUp, check
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
@@ -48,13 +48,19 @@ class VectorField(Model):
     ----------
     function : callable
         `function(u, p)` returns (n,); `u` is (n,), `p` a mapping of parameter names to floats. It may take the time
-        as a third argument, in s: with a `period` it is forced, without one t is 0 wherever it is evaluated.
+        as a third argument, in s: with a `period` it is forced, without one t is 0 wherever it is evaluated. A
+        `vectorized` one also takes many states at once, as the columns of u (n, m), and returns (n, m); a parameter or
+        the time is then a number, or (m,) where it differs between the states.
     u0 : array_like, (n,)
         Default start.
     parameters : mapping of str to float
         Names and default values.
     jacobian : callable, optional
-        `jacobian(u, p)` returns df/du, (n, n), dense or scipy.sparse; centred differences otherwise.
+        `jacobian(u, p)` returns df/du, (n, n), dense or scipy.sparse; centred differences otherwise. It is given one
+        state, (n,), at a time.
+    vectorized : bool, optional
+        Whether `function` takes states as columns. The first time that it is given some, three are also evaluated one
+        by one, and compared.
     names : sequence of str, optional
         Names of the components of u, by which they are observables; default u[0], u[1], ...
     units : mapping of str to str, optional
@@ -96,9 +102,10 @@ class VectorField(Model):
         name: str = "vector field",
         period: Callable[[Values], float] | None = None,
         energy: Callable[[Array, Values], float] | None = None,
+        vectorized: bool = False,
     ) -> None:
         self.name, self.period, self.energy = name, period, energy
-        self.timed = _takes_time(function)
+        self.timed, self.vectorized, self._compared = takes_time(function), vectorized, False
         self.n = np.size(u0)
         if self.n == 0:
             raise ParameterError("u0 is empty: a vector field needs at least one unknown")
@@ -178,8 +185,7 @@ class VectorField(Model):
     def rate(self, x: Array, values: Values, time: float) -> Array:
         """Return f at a time, in s, (n,), as `residual`."""
         check()
-        thread = threading.get_ident()
-        self._counts[thread] = self._counts.get(thread, 0) + 1
+        self._count(1)
         try:
             found = np.array(self.function(x, values, time) if self.timed else self.function(x, values), dtype=float)
         except MjcontError:
@@ -187,13 +193,21 @@ class VectorField(Model):
         except Exception as error:
             if leaves_domain(error):  # ends a curve there, with what came before
                 return np.full(self.n, np.nan)
-            raise FunctionError(f"the function of {self.name} raised {type(error).__name__}: {error}") from error
+            raise raised(f"the function of {self.name}", error) from error
         if found.size != self.n:
-            raise FunctionError(f"the function of {self.name} returned shape {found.shape} for {self.n} unknowns")
+            raise FunctionError(f"the function of {self.name} returned shape {found.shape} for {self.n} unknowns: "
+                                f"expected ({self.n},)")
         return found.reshape(self.n)
+
+    def _count(self, evaluations: int) -> None:
+        thread = threading.get_ident()
+        self._counts[thread] = self._counts.get(thread, 0) + evaluations
 
     def rates(self, states: Array, values: Sequence[Values], times: Sequence[float]) -> Array:
         """Return f at states (m, n), each with its own parameter values and time in s, (m, n), as `rate` does."""
+        if self.vectorized and len(states):
+            own = np.array(times, dtype=float)
+            return self.rates_together(states, merged(values), own if np.ptp(own) else float(own[0]))
         function, timed, found = self.function, self.timed, []
         try:
             for u, p, t in zip(states, values, times, strict=True):
@@ -208,9 +222,43 @@ class VectorField(Model):
             rows = np.empty(0)
         if rows.shape != states.shape:
             return np.array([self.rate(u, p, t) for u, p, t in zip(states, values, times, strict=True)])
-        thread = threading.get_ident()
-        self._counts[thread] = self._counts.get(thread, 0) + len(states)
+        self._count(len(states))
         return rows
+
+    def rates_together(self, states: Array, values: Mapping[str, Any], times: float | Array = 0.0) -> Array:
+        """Return f at states (m, n) by one call of a vectorized function, (m, n), as `rate` does.
+
+        Parameter values and times are numbers, or (m,) where they differ.
+        """
+        if not self._compared:
+            self._compare(states[0], values, times)
+            self._compared = True
+        return self._columns(states, values, times)
+
+    def _columns(self, states: Array, values: Mapping[str, Any], times: float | Array) -> Array:
+        check()
+        what, m = f"the function of {self.name}", len(states)
+        columns = np.array(states.T)  # the user's own
+        try:
+            found = self.function(columns, values, times) if self.timed else self.function(columns, values)
+        except MjcontError:
+            raise
+        except Exception as error:
+            if not leaves_domain(error):
+                raise raised(f"{what}, declared vectorized,", error, f" for u of shape {columns.shape}") from error
+            return np.array([
+                self.rate(u, {k: _entry(v, i) for k, v in values.items()}, _entry(times, i))
+                for i, u in enumerate(states)
+            ])
+        self._count(m)
+        return as_columns(what, found, self.n, m)
+
+    def _compare(self, x: Array, values: Mapping[str, Any], times: float | Array) -> None:
+        """Raise a FunctionError if a function that is said to be vectorized is not."""
+        states, own = beside(x, self.state_scale), {k: _entry(v, 0) for k, v in values.items()}
+        single = np.array([self.rate(u, own, _entry(times, 0)) for u in states])
+        many = {k: np.full(len(states), v) for k, v in own.items()}
+        check_columns(f"the function of {self.name}", self._columns(states, many, _entry(times, 0)), single)
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x plus each row of `steps`, (m, n)."""
@@ -244,9 +292,10 @@ class VectorField(Model):
         except Exception as error:
             if leaves_domain(error):
                 return np.full((self.n, self.n), np.nan)
-            raise FunctionError(f"the jacobian of {self.name} raised {type(error).__name__}: {error}") from error
+            raise raised(f"the jacobian of {self.name}", error) from error
         if jac.shape != (self.n, self.n):
-            raise FunctionError(f"the jacobian of {self.name} returned shape {jac.shape} for {self.n} unknowns")
+            raise FunctionError(f"the jacobian of {self.name} returned shape {jac.shape} for {self.n} unknowns: "
+                                f"expected {(self.n, self.n)}")
         return jac
 
     def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
@@ -296,17 +345,12 @@ def _measured(observable: Observable, values: Values, x: Array) -> float:
     except Exception as error:
         if leaves_domain(error):
             return np.nan
-        raise FunctionError(f"observable '{observable.name}' raised {type(error).__name__}: {error}") from error
+        raise raised(f"observable '{observable.name}'", error) from error
 
 
-def _takes_time(function: Callable[..., Any]) -> bool:
-    """Whether a function must be given three arguments."""
-    try:
-        parameters = inspect.signature(function).parameters.values()
-    except (TypeError, ValueError):
-        return False
-    positional = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
-    return sum(p.kind in positional and p.default is p.empty for p in parameters) == 3
+def _entry(value: Any, i: int) -> float:
+    """Return a number, or entry i of one for each state."""
+    return float(value[i]) if np.ndim(value) else float(value)
 
 
 def _component(i: int) -> Callable[[Any, Any], float]:
