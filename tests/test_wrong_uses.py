@@ -48,7 +48,8 @@ USES: Mapping[str, tuple[Callable[..., Any], Mapping[str, Any]]] = {
     "from_model": (mc.Mechanism.from_model, {"model": mujoco.MjModel.from_xml_string(TRUSS.mjcf)}),
     "VectorField": (mc.VectorField, {
         "function": cubic, "u0": [0.0], "parameters": {"a": 0.0, "b": 1.0}, "jacobian": None, "names": ["u"],
-        "units": {"a": "m"}, "scale": [1.0], "bounds": {"a": (-1.0, 1.0)}, "name": "n", "period": None}),
+        "units": {"a": "m"}, "scale": [1.0], "bounds": {"a": (-1.0, 1.0)}, "name": "n", "period": None,
+        "vectorized": False}),
     "continue_equilibria": (mc.continue_equilibria, {
         "problem": FIELD, "parameter": "a", "bounds": (-1.0, 1.0), "start": {"a": 0.0}, "state": None, "keyframe": None,
         "direction": None, "zeros": None, "limits": None, "max_points": 3}),
