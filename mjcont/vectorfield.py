@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
+from scipy import sparse
 
 from mjcont.arguments import checked
 from mjcont.errors import MjcontError, ParameterError, leaves_domain, unknown_name
@@ -15,6 +17,7 @@ from mjcont.fields.derivatives import Derivatives
 from mjcont.fields.foreign import offered
 from mjcont.fields.functions import Evaluated, raised, takes_time
 from mjcont.fields.parameters import flattened
+from mjcont.fields.together import linearized
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
     PARAMETER,
@@ -229,6 +232,10 @@ class VectorField(Model):
     ) -> Linearization:
         """Return f, df/du and df/dp (always by fourth-order differences where no Jacobian is given)."""
         del accurate
+        if self.vectorized:
+            columns = {name: np.array([values[name]]) for name in wrt}
+            within = dict(zip(wrt, ranges or [None] * len(wrt), strict=True))
+            return Linearization(*(part[0] for part in self._linearized(x[None], values, columns, within)))
         f = self.residual(x, values)
         if self.jacobian is not None:
             jac = self._own_jacobian(x, values)
@@ -244,6 +251,41 @@ class VectorField(Model):
             rows = [self.residual(x, {**values, name: values[name] + o * h}) if o else f for o in rule.offsets]
             par[:, k] = np.asarray(rule.weights) @ np.array(rows) / h
         return Linearization(f, jac, par)
+
+    # -- many states side by side ------------------------------------------------------------------------------
+
+    def side_by_side(self, name: str) -> bool:
+        """Whether the function takes many states at once, and matrices are dense."""
+        del name
+        return self.vectorized and not self._sparse
+
+    @cached_property
+    def _sparse(self) -> bool:
+        """Whether the user's Jacobian is sparse, as it is at the start."""
+        return self.jacobian is not None and sparse.issparse(self._own_jacobian(self.u0, self.values()))
+
+    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
+        """Return f at states (m, n), a parameter having a value of its own in each (m,), shape (m, n)."""
+        if not self.vectorized:
+            return super().residuals_along(states, values, name, column)
+        return self.rates_together(states, {**values, name: column})
+
+    def linearize_along(
+        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
+    ) -> tuple[Array, Array, Array] | None:
+        """Return f (m, n), df/du (m, n, n) and df/dp (m, n) at such states; None where side by side gains nothing."""
+        if not self.side_by_side(name):
+            return None
+        f, jac, par = self._linearized(states, values, {name: column}, {name: bounds})
+        return f, jac, par[:, :, 0]
+
+    def _linearized(
+        self, states: Array, values: Values, columns: Mapping[str, Array], ranges: Mapping[str, Range | None]
+    ) -> tuple[Array, Any, Array]:
+        """Return f, df/du and df/dp at states of a vectorized field, as `together.linearized` does."""
+        own = self._own_jacobian if self.jacobian is not None else None
+        given = (self.rates_together, self.parameter_stencil, self.state_scale, self._own_slopes, own)
+        return linearized(*given, states, values, columns, ranges)
 
     # -- derivatives of the user's own -------------------------------------------------------------------------
 

@@ -91,9 +91,11 @@ def equilibrium_walker(
 ) -> Walker:
     """Return what walks along a curve of equilibria, with long steps where points inside them are cheap.
 
-    They are where points that differ in the parameter are evaluated together, and only dampers resist velocity.
+    They are where points that differ in the parameter are evaluated together, and only dampers resist velocity, if
+    anything does.
     """
-    cheap = system.problem.passive and system.problem.side_by_side(system.names[0])
+    problem = system.problem
+    cheap = (problem.passive or not problem.second_order) and problem.side_by_side(system.names[0])
     detectors = equilibrium_detectors(system, settings, zeros)
     return Walker((Filled if cheap else OneByOne)(system, settings, detectors), stop)
 

@@ -80,7 +80,7 @@ def check_columns(what: str, together: Array, single: Array) -> None:
     """Raise a FunctionError if f of states together, (m, n), is not what it is of each by itself, (m, n)."""
     with np.errstate(invalid="ignore"):
         off = np.abs(together - single)
-        off[np.isnan(together) & np.isnan(single)] = 0.0
+        off[(together == single) | np.isnan(together) & np.isnan(single)] = 0.0  # infinite ones, too
         allowed = _AGREES * max(np.nanmax(np.abs(single), initial=0.0), np.nanmax(np.abs(together), initial=0.0))
         wrong = np.argwhere(~(off <= allowed))
     if len(wrong):

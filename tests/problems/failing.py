@@ -344,7 +344,6 @@ CASES = {
     "tracks.meetings": lambda b: [tracks.meetings(pair, 0, [], None) for pair in (b.pair, (b.point(), b.point()))],
     "tracks.interpolated": lambda b: [tracks.interpolated(pair, 0) for pair in (b.pair, (b.point(), b.point()))],
     "tracks.tracks": lambda b: [tracks.tracks(pair, 0) for pair in (b.pair, (b.point(), b.point()))],
-    "tracks.Tracks": lambda b: tracks.Tracks(*6 * [np.full(b.n, math.nan)]).meetings(),
     "vibration.vibration": lambda b: vibration.vibration(pencil(b)),
     "vibration.frequency_response": lambda b: vibration.frequency_response(pencil(b), np.array([0.0, math.nan]), b.v),
     "spectrum.companion": lambda b: spectrum.companion(*vars_of(pencil(b))),

@@ -9,12 +9,17 @@ from functools import cached_property
 import numpy as np
 
 import mjcont as mc
-from mjcont.numerics.equations import algebra, directions
+from mjcont.numerics.equations import algebra, differences, directions
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import OneByOne
-from mjcont.numerics.points import alongside, bundle
+from mjcont.numerics.equations.settings import Settings
+from mjcont.numerics.equations.system import System
+from mjcont.numerics.points import alongside, balance, bundle, events, glance
 from mjcont.numerics.search import leastnorm
+from mjcont.numerics.spectra import abreast, spectrum, tracks
+from mjcont.numerics.step import arclength
 from problems.failing import FIELDS
+from problems.fields import by_columns
 
 # what fills the arrays that a routine is given, where it is not a plain number
 FILLS = {"nan": math.nan, "infinite": math.inf, "zero": 0.0, "singular": 1.0, "huge": 1e300}
@@ -103,6 +108,34 @@ class BadRows:
         forms = along.form(rows[2], u), along.form(rows[2], u, u), along.third(rows[3], u)
         assert {a.shape for a in forms} == {(self.count, n, n)}
 
+    @property
+    def parts(self):
+        """Coefficients of a polynomial of matrices along each piece."""
+        return self.of(3, self.n, self.n)
+
+    @property
+    def tracks(self):
+        """Bad eigenvalues along each piece."""
+        end = self.v, self.v, self.v == 0.0, self.v
+        return abreast.Tracks.matched(end, end)
+
+    def probed(self):
+        """Look at what products with bad matrices show, along bad vectors."""
+        square, followed = self.of(self.n, self.n), self.tracks
+        for mass in (None, square):
+            probe = abreast.Probe.of(square, square, mass, np.ones(self.n), self.parts)
+            assert probe.strays(self.v, np.full(self.count, 0.5), followed).shape == (self.count,)
+
+    def glanced(self):
+        """Glance at a curve of a vectorized field, all its points in one place."""
+        field = mc.VectorField(by_columns(FIELDS[self.kind]), np.zeros(self.n), {"p": 0.0}, vectorized=True)
+        curve = System(field, field.values(), [Free("p", -1.0, 1.0)])
+        x, y, tangent = np.zeros(self.n), np.zeros(1), np.append(np.zeros(self.n), 1.0)
+        chain = [
+            arclength.CurvePoint(x, y, tangent, 0.0, curve.local(x, y), None, 1e-3 * i) for i in range(3 * self.count)
+        ]
+        glance.glance(curve, chain, Settings())
+
     def moved(self):
         found = alongside.move(*self.placed, self.members)
         assert found.x.shape == (self.count, self.n) and found.values.shape == (self.count, self.k)
@@ -127,6 +160,11 @@ class BadRows:
 
 
 CASES = {
+    "abreast.Probe": BadRows.probed,
+    "abreast.Tracks": lambda b: (b.tracks.near, b.tracks.at(0.5), b.tracks.chosen(b.members)),
+    "abreast.coefficients": lambda b: abreast.coefficients(b.of(3), b.parts),
+    "abreast.singular_at": lambda b: abreast.singular_at(b.parts),
+    "abreast.within": lambda b: abreast.within(b.v + 0j),
     "algebra.determinant_signs": lambda b: algebra.determinant_signs(b.of(b.n, b.n)),
     "algebra.solve_each": lambda b: algebra.solve_each(b.of(b.n, b.n), b.v),
     "alongside.move": BadRows.moved,
@@ -139,8 +177,18 @@ CASES = {
     "directions.dot": lambda b: directions.dot(b.v, b.v),
     "directions.orient": lambda b: directions.orient(b.v),
     "directions.weighted": lambda b: directions.weighted(np.full(3, b.fill), b.of(3, b.n)),
+    "balance.places_between": lambda b: balance.places_between(b.v, b.fill),
+    "differences.jacobians_from_rows": lambda b: differences.jacobians_from_rows(
+        b.of(4 * b.n, b.n), np.ones(b.n), differences.FOURTH_ORDER
+    ),
+    "events.cubic": lambda b: events.cubic(b.fill, b.v, b.v, b.v),
+    "glance.glance": BadRows.glanced,
     "leastnorm.least_norm": BadRows.shortest,
     "problem.OneByOne": lambda b: b.variants.residuals(b.members, b.of(2, b.n), b.of(2, b.k)),
+    "spectrum.first_order_spectra": lambda b: spectrum.first_order_spectra(b.of(b.n, b.n), b.v + 0j),
+    "spectrum.pair_counts": lambda b: spectrum.pair_counts(b.v + 0j, b.v),
+    "tracks.eigenvalue_noise": lambda b: tracks.eigenvalue_noise(b.v, b.of(b.n, b.n)),
+    "tracks.vanishes": lambda b: tracks.vanishes(b.v, b.of(b.n, b.n)),
 }
 # records, and what others derive from
 PLAIN = {"alongside.Moved", "leastnorm.Shortest", "problem.Variants"}

@@ -11,6 +11,25 @@ from scipy import sparse
 import mjcont as mc
 
 
+def by_columns(f):
+    """Return a function of states in columns from one of a single state."""
+
+    def together(u, p):
+        if u.ndim == 1:
+            return f(u, p)
+        own = [{k: float(np.broadcast_to(v, u.shape[1])[i]) for k, v in p.items()} for i in range(u.shape[1])]
+        return np.array([f(x, v) for x, v in zip(u.T, own, strict=True)], dtype=float).T
+
+    return together
+
+
+def vectorized(field):
+    """Return a field whose function takes many states at once."""
+    values, names = {p.name: p.value for p in field.parameters.values()}, [name for name, _ in field.state_labels]
+    f = by_columns(field.function)
+    return mc.VectorField(f, field.u0, values, names=names, name=field.name, vectorized=True)
+
+
 def ab(B):
     """AUTO demo ab: an exothermic reaction in a stirred tank, sigma = 3."""
 

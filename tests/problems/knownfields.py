@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 import mjcont as mc
+from problems.fields import vectorized
 
 Function = Callable[[float], float]
 REACH = 0.93
@@ -285,8 +286,9 @@ def _word(case, kind, x):
     return "double" if any(abs(e[1] - x) < 1e-7 for e in near) else "misplaced" if near else "false"
 
 
-def run(seed):
-    """Follow the field of a seed; return what is wrong."""
+def run(seed, together=False):
+    """Follow the field of a seed, by itself or with a function of many states `together`; return what is wrong."""
     case = known(seed)
-    branch = mc.continue_equilibria(case.problem, "p", case.bounds)
+    problem = vectorized(case.problem) if together else case.problem
+    branch = mc.continue_equilibria(problem, "p", case.bounds)
     return judge(case, branch)

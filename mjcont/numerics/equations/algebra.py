@@ -17,17 +17,18 @@ from mjcont.numerics.equations.problem import Array
 
 
 def solve(matrix: Array, rhs: Array) -> Array:
-    """Return the solution of A z = rhs; NaN where A is singular."""
-    return _defined(np.linalg.solve, matrix, rhs, like=rhs)
+    """Return the solution of A z = rhs; NaN where A is singular, of a stack (m, k, k) for those that are."""
+    if matrix.ndim < 3:
+        return _defined(np.linalg.solve, matrix, rhs, like=rhs)
+    try:
+        return np.linalg.solve(matrix, rhs)
+    except np.linalg.LinAlgError:
+        return np.array([solve(a, b) for a, b in zip(matrix, rhs, strict=True)])
 
 
 def solve_each(matrices: Array, rhs: Array) -> Array:
     """Return the solutions of A z = rhs for matrices (m, k, k) and vectors (m, k), NaN for singular ones."""
-    try:
-        found: Array = np.linalg.solve(matrices, rhs[..., None])[..., 0]
-    except np.linalg.LinAlgError:
-        found = np.array([solve(a, b) for a, b in zip(matrices, rhs, strict=True)])
-    return found
+    return solve(matrices, rhs[..., None])[..., 0]
 
 
 def determinant_signs(matrices: Array) -> Array:
@@ -73,10 +74,13 @@ def symmetric_eigenvalues(matrix: Array) -> Array:
 
 
 def eigenvectors(matrix: Array) -> tuple[Array, Array]:
-    """Return eigenvalues (n,) and eigenvectors in columns (n, n); NaN where there are none."""
+    """Return eigenvalues (n,) and eigenvectors in columns (n, n), or stacks of them; NaN where there are none."""
     try:
         values, vectors = np.linalg.eig(matrix)
     except np.linalg.LinAlgError:
+        if matrix.ndim > 2:
+            every = [eigenvectors(one) for one in matrix]
+            return np.array([v for v, _ in every]), np.array([v for _, v in every])
         return np.full(len(matrix), np.nan, dtype=complex), np.full(matrix.shape, np.nan, dtype=complex)
     return values, vectors
 

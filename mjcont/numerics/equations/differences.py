@@ -62,14 +62,20 @@ def jacobian_steps(scale: Array, rule: Stencil) -> Array:
 
 def jacobian_from_rows(rows: Array, scale: Array, rule: Stencil) -> Array:
     """Combine f at `jacobian_steps` into df/dx, (n_f, n)."""
-    n = len(scale)
+    found: Array = jacobians_from_rows(rows[None], scale, rule)[0]
+    return found
+
+
+def jacobians_from_rows(rows: Array, scale: Array, rule: Stencil) -> Array:
+    """Combine f at the `jacobian_steps` of several points, (m, len(offsets) * n, n_f), into df/dx, (m, n_f, n)."""
+    (m, _, size), n = rows.shape, len(scale)
     if len(rule.offsets) == 2:
-        difference = rows[:n] - rows[n:]
-        difference *= (rule.weights[0] / (rule.step * scale))[:, None]
-        return np.ascontiguousarray(difference.T)
-    blocks = rows.reshape(len(rule.offsets), n, -1)
-    columns = np.tensordot(np.asarray(rule.weights), blocks, axes=1) / (rule.step * scale)[:, None]
-    return np.ascontiguousarray(columns.T)
+        columns = rows[:, :n] - rows[:, n:]
+        columns *= (rule.weights[0] / (rule.step * scale))[:, None]
+    else:
+        mixed = np.asarray(rule.weights) @ rows.reshape(m, len(rule.offsets), n * size)
+        columns = mixed.reshape(m, n, size) / (rule.step * scale)[:, None]
+    return np.ascontiguousarray(columns.transpose(0, 2, 1))
 
 
 # part of its step to which a higher derivative is narrowed where f is smooth in pieces

@@ -252,11 +252,11 @@ def solve(system: System, x: Array, y: Array, *, tol: float = 1e-12, most: int =
         local = system.local(x, y)
         if size < best:
             best, best_at, since_best = size, (x, y), 0
-        elif since_best == 1 and size > max(last, _GROWS * best):  # it has not been there yet
+        elif since_best and size > max(last, _GROWS * best):  # it has not been there yet
             best, best_at, since_best = size, (x, y), 0
         else:
             since_best += 1
-        if size <= tol or (best < 1e-6 and since_best >= (1 if best < 1e-9 else 2)):
+        if size <= tol or (best < 1e-6 and since_best >= (1 if best < 1e-9 else 3)):
             break
     x, y = best_at
     local = system.local(x, y)

@@ -70,6 +70,10 @@ class Local:
         """Take the residual, (n,), computed elsewhere."""
         self._residual = residual
 
+    def take(self, linearization: Linearization) -> None:
+        """Take the derivatives computed elsewhere."""
+        self._lin = linearization
+
     def _linearize(self) -> Linearization:
         if self._lin is None:
             self._lin = self.problem.linearize(

@@ -20,8 +20,9 @@ from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.corner import loaded_at
 from mjcont.numerics.points.events import Located, between
+from mjcont.numerics.spectra.abreast import Probe, Tracks
 from mjcont.numerics.spectra.stability import spectrum_of
-from mjcont.numerics.spectra.tracks import Meeting, Tracks, interpolated, meetings, motion_at, tracks
+from mjcont.numerics.spectra.tracks import Meeting, interpolated, meetings, motion_at, tracks
 from mjcont.numerics.step.arclength import BEFORE, CurvePoint, advance
 
 # the type of a point at which several eigenvalues reach the axis
@@ -32,11 +33,10 @@ _ALONE, _MOST = 2e-8, 80
 _EDGE, _NEAR = 0.02, 1e-4
 # where no point can be taken, another one is, aside by this part of the way to the nearer end
 _ASIDE = 0.1
-# products with the Jacobian are taken this many times the longest step; a change of an eigenvalue that they show counts
-# from this part of its distance from the axis on, or of its values at the ends where it passes
-_PLACES, _CHANGES, _STEEPENS = 0.25, 0.3, 0.1
+# products with the Jacobian are taken this many times the longest step
+PLACES = 0.25
 # difference step of such a product, in scaled unknowns
-_PROBE = 1e-3
+PROBE = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,16 +145,42 @@ class Balance:
 
     def _strays(self, a: CurvePoint, b: CurvePoint, parts: Sequence[Array], followed: Tracks | None) -> float | None:
         """Return where an eigenvalue strays so far from what the points tell that it may reach the axis, or None."""
-        count = math.ceil((b.s - a.s) / (_PLACES * self.settings.ds_max) - 0.1) - 1
+        count = int(places_between(b.s - a.s, self.settings.ds_max))
         if count < 1 or followed is None:
             return None
-        probe = _Probe.of(self.system, a, b, parts)
+        motion, alone = motion_at(a), followed.chosen(None)
+        assert motion is not None and motion.modes is not None
+        modes, mass = motion.modes, a.local.pencil.mass
+        probe = Probe.of(
+            modes.right[None], modes.left.conj().T[None], None if mass is None else mass[None],
+            self.system.problem.state_scale, np.array(parts)[None],
+        )
         worst, where = 1.0, None
         for t in (np.arange(count) + 1.0) / (count + 1.0):
-            share = probe.strays(float(t), followed)
+            share = self._share(a, b, probe, float(t), alone)
             if share > worst:
                 worst, where = share, float(t)
         return where
+
+    def _share(self, a: CurvePoint, b: CurvePoint, probe: Probe, t: float, followed: Tracks) -> float:
+        """Return by how much an eigenvalue strays at a part of a piece, one where it is worth a point there."""
+        x, y, _ = between(self.system, a, b, t)
+        place = np.array([t])
+
+        def beside(step: float) -> Array:
+            return self.system.problem.residuals(x, self.system.values(y), step * probe.vector)
+
+        ahead = beside(PROBE)
+        share = float(probe.strays(ahead / PROBE, place, followed)[0])
+        if share <= 1.0:  # f is nearly zero at the place itself; where this shows something the other side makes sure
+            return share
+        return float(probe.strays((ahead - beside(-PROBE)) / (2.0 * PROBE), place, followed)[0])
+
+
+def places_between(length: float | Array, longest: float) -> Array:
+    """Return at how many places in pieces of a length products with the Jacobian are taken, for the longest step."""
+    found: Array = np.ceil(length / (PLACES * longest) - 0.1) - 1.0
+    return found
 
 
 def _held(a: CurvePoint, middle: CurvePoint, b: CurvePoint, met: Sequence[Meeting]) -> int:
@@ -192,65 +218,3 @@ def _known_to(piece: Piece) -> float:
     if before is not None and at is not None and not piece.oscillate and at.vanishing(before.size):
         share = before.noise * before.size / max(float(np.abs(before.own).min()), 1e-300)
     return length * min(math.sqrt(share), 1.0)
-
-
-@dataclass(frozen=True, slots=True)
-class _Probe:
-    """The product J r along a piece: r the sum of the eigenvectors, so that each eigenvalue shows in it.
-
-    Attributes
-    ----------
-    vector : (n,) r.
-    left : (N, n) takes each eigenvalue's share out of a product.
-    along : coefficients of the polynomial for J r that the points tell, (n,) each.
-    """
-
-    system: System
-    old: CurvePoint
-    new: CurvePoint
-    vector: Array
-    left: Array
-    along: list[Array]
-
-    @staticmethod
-    def of(system: System, a: CurvePoint, b: CurvePoint, parts: Sequence[Array]) -> _Probe:
-        """Return the probe of the piece between two points, with the matrices interpolated between them."""
-        motion, n, scale = motion_at(a), system.n, system.problem.state_scale
-        assert motion is not None and motion.modes is not None
-        modes = motion.modes
-        size = np.abs(modes.right[:n] / scale[:, None]).max(axis=0)
-        unit = modes.right / np.where(size > 0.0, size, 1.0)
-        whole = (unit.real + unit.imag).sum(axis=1)
-        mass, left = a.local.pencil.mass, modes.left[-n:].conj().T
-        left = left if mass is None else np.linalg.solve(mass.T, left.T).T
-        shares = np.abs(modes.left.conj().T @ whole)
-        length = float(np.abs(whole[:n] / scale).max()) or 1.0
-        left = left / np.where(shares > 0.0, shares, 1.0)[:, None] * length
-        vector = whole[:n] / length
-        return _Probe(system, a, b, vector, left, [part @ vector for part in parts])
-
-    def strays(self, t: float, followed: Tracks) -> float:
-        """Return by how much an eigenvalue strays at a part of the piece, one where it is worth a point there."""
-        x, y, _ = between(self.system, self.old, self.new, t)
-        expected = sum(part * t**k for k, part in enumerate(self.along))
-
-        def beside(step: float) -> Array:
-            found: Array = self.system.problem.residuals(x, self.system.values(y), step * self.vector[None])[0]
-            return found
-
-        ahead = beside(_PROBE)
-        share = self._share(ahead / _PROBE - expected, t, followed)
-        if share <= 1.0:  # f is nearly zero at the place itself; where this shows something the other side makes sure
-            return share
-        return self._share((ahead - beside(-_PROBE)) / (2.0 * _PROBE) - expected, t, followed)
-
-    def _share(self, change: Array, t: float, followed: Tracks) -> float:
-        """Return by how much an eigenvalue strays for a change of J r."""
-        off = np.abs(self.left @ change)
-        if not np.all(np.isfinite(off)):
-            return 0.0
-        ends = np.maximum(np.abs(followed.start), np.abs(followed.end))
-        passes = followed.start.real * followed.end.real < 0.0
-        floor = np.maximum(_CHANGES * np.abs(followed.at(t).real), np.where(passes, _STEEPENS * ends, 0.0))
-        away = (np.abs(followed.start.real) > followed.noise) & (np.abs(followed.end.real) > followed.noise)
-        return float((off / np.maximum(floor, 1e2 * followed.noise))[away].max(initial=0.0))

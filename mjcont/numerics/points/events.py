@@ -135,15 +135,19 @@ def within(system: System, old: CurvePoint, new: CurvePoint, c: Corrected) -> fl
 
 def between(system: System, old: CurvePoint, new: CurvePoint, fraction: float) -> tuple[Array, Array, Array]:
     """Return a point at a fraction of the step, on the cubic through both points with their tangents, and a tangent."""
-    h = new.s - old.s
+    h, t = new.s - old.s, fraction
     chord = system.difference(new.x, new.y, old.x, old.y)
-    t = fraction
-    h01 = t * t * (3.0 - 2.0 * t)
-    h10, h11 = t * (1.0 - t) ** 2, t * t * (t - 1.0)
-    step = h01 * chord + h * (h10 * old.tangent + h11 * new.tangent)
+    step = cubic(t, chord, h * old.tangent, h * new.tangent)
     tangent = (1.0 - t) * old.tangent + t * new.tangent
     x, y = system.move(old.x, old.y, step)
     return x, y, _unit(tangent, new.tangent)
+
+
+def cubic(t: Any, chord: Array, first: Array, last: Array) -> Array:
+    """Return the way to a place t from 0 to 1 along a chord, on the cubic with these slopes at its ends."""
+    rest = 1.0 - t
+    found: Array = t * t * (3.0 - 2.0 * t) * chord + t * rest * rest * first - t * t * rest * last
+    return found
 
 
 def _unit(vector: Array, otherwise: Array) -> Array:

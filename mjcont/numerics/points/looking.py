@@ -10,6 +10,7 @@ from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.balance import Balance, Piece, multiple
 from mjcont.numerics.points.events import Detector, Found, Located
 from mjcont.numerics.step.arclength import CurvePoint
+from mjcont.numerics.step.notes import Note
 from mjcont.numerics.step.turning import may_turn_beyond
 
 # below this step a pair of folds, or a fold beyond a bound, is not looked for between two points
@@ -18,6 +19,8 @@ SMALL_FOLDS = 1e-5
 _SAME_AS_BRANCH = 1e-5
 # kinds of points that hold eigenvalues on the axis
 _HOLDING = ("BP", "LP", "HB")
+# the point before one between which and it nothing changes that structural detectors look for
+CALM: Note[CurvePoint] = Note()
 
 
 def look(
@@ -26,7 +29,9 @@ def look(
     """Return the special points between two points of the curve in order, or why the step is to be shorter."""
     structural = any(d.structural for d in detectors)
     located, neutral = list[Located](), list[Located]()
-    for piece in Balance(system, settings).pieces(old, new) if structural else [Piece(old, new)]:
+    calm = CALM.get(new) is old
+    whole = calm or not structural
+    for piece in [Piece(old, new, quiet=calm)] if whole else Balance(system, settings).pieces(old, new):
         found = _inside(piece, detectors)
         if isinstance(found, Refused):
             return found

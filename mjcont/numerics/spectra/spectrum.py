@@ -25,6 +25,8 @@ _SYMMETRY_NOISE = 1e-8
 DIFFERENCE_NOISE = 1e-10
 _ROUNDING = 1e-13
 _EIGENSOLVER = 1e-15
+# noise of eigenvalues of a first-order system, in parts of the largest entry and of themselves
+_FIRST_ORDER, _RELATIVE = 1e-11, 1e-12
 # eigenvalues nearest the axis that are sought of a sparse matrix, and its size up to which all are
 _NEAREST, _SMALL = 6, 16
 
@@ -56,12 +58,16 @@ class Spectrum:
         It changes by one at a Hopf point or a neutral saddle and nowhere else. Pairs whose sum is zero within the
         noise are left out: undamped oscillations, and the real pairs into which they turn at a fold.
         """
-        ev = self.eigenvalues
-        pairs = int(np.count_nonzero((ev.imag > 0) & (ev.real > self.noise)))
-        of_real = np.abs(ev.imag) == 0
-        real, noise = ev.real[of_real], self.noise[of_real]
-        sums, unsure = real[:, None] + real[None, :], noise[:, None] + noise[None, :]
-        return pairs + int(np.count_nonzero(np.triu(sums > unsure, 1)))
+        return int(pair_counts(self.eigenvalues, self.noise))
+
+
+def pair_counts(ev: Array, noise: Array) -> Array:
+    """Return `Spectrum.pair_count` for eigenvalues (..., N) and their noise."""
+    of_real, above = ev.imag == 0, ev.real > noise
+    sums = (ev.real[..., :, None] + ev.real[..., None, :]) > (noise[..., :, None] + noise[..., None, :])
+    both = np.triu(sums & of_real[..., :, None] & of_real[..., None, :], 1)
+    found: Array = np.count_nonzero((ev.imag > 0) & above, axis=-1) + np.count_nonzero(both, axis=(-2, -1))
+    return found
 
 
 def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spectrum:
@@ -76,9 +82,8 @@ def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spec
     if sparse.issparse(pencil.stiffness):
         return _sparse_spectrum(pencil.stiffness)
     if pencil.mass is None or pencil.damping is None:
-        ev = eigenvalues(-pencil.stiffness)
-        size = np.abs(pencil.stiffness).max()
-        return _classify(ev, 1e-11 * size + 1e-12 * np.abs(ev), conservative=False)
+        jac = -pencil.stiffness[None]
+        return first_order_spectra(jac, eigenvalues(jac))[0]
     k, c = pencil.stiffness, pencil.damping
     if symmetric(k) and symmetric(c) and symmetric_eigenvalues(0.5 * (c + c.T))[0] >= -_ROUNDING * np.abs(c).max():
         return _conservative(pencil.mass[None], c[None], 0.5 * (k + k.T)[None])[0]
@@ -93,7 +98,7 @@ def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spec
             measured = _measured_noise(pencil.mass, c, k, ev[i], samples)
             settled = measured if zero[i] else min(measured, noise[i])
             noise[np.abs(ev - ev[i]) == 0] = noise[np.abs(ev - ev[i].conj()) == 0] = settled
-    return _classify(ev, noise, conservative=False)
+    return _classify(ev, noise)
 
 
 def _noise_bound(mass: Array, stiffness: Array, ev: Array) -> tuple[Array, Array]:
@@ -187,17 +192,28 @@ def _undefined(count: int) -> Spectrum:
     return Spectrum(np.full(count, complex(np.nan, np.nan)), MARGINAL, 0, np.full(count, np.inf), False)
 
 
-def _classify(ev: Array, noise: Array, *, conservative: bool) -> Spectrum:
-    if np.isnan(ev).any():
-        return _undefined(len(ev))
+def first_order_spectra(jacs: Array, ev: Array) -> list[Spectrum]:
+    """Return the spectra of first-order systems with matrices J (m, n, n), given their eigenvalues (m, n)."""
+    size = np.abs(jacs).max(axis=(1, 2), initial=0.0)[:, None]
+    return _classified(ev, _FIRST_ORDER * size + _RELATIVE * np.abs(ev))
+
+
+def _classify(ev: Array, noise: Array) -> Spectrum:
+    return _classified(ev[None], noise[None])[0]
+
+
+def _classified(ev: Array, noise: Array) -> list[Spectrum]:
+    """Return the spectra with eigenvalues (m, N) that are to be told from the axis by more than their noise (m, N)."""
     order = np.lexsort((ev.imag, -ev.real))
-    ev, noise = ev[order].astype(complex), noise[order]
-    unstable = int(np.count_nonzero(ev.real > noise))
-    if unstable:
-        state = UNSTABLE
-    else:
-        state = MARGINAL if np.any(np.abs(ev.real) <= noise) else STABLE
-    return Spectrum(ev, state, unstable, noise, conservative)
+    ev, noise = (np.take_along_axis(a, order, axis=1) for a in (ev.astype(complex), noise))
+    counts = np.count_nonzero(ev.real > noise, axis=1).tolist()
+    touching: list[bool] = np.any(np.abs(ev.real) <= noise, axis=1).tolist()
+    undefined: list[bool] = np.any(np.isnan(ev), axis=1).tolist()
+    found = []
+    for i, count in enumerate(counts):
+        state = UNSTABLE if count else MARGINAL if touching[i] else STABLE
+        found.append(_undefined(ev.shape[1]) if undefined[i] else Spectrum(ev[i], state, count, noise[i], False))
+    return found
 
 
 def _sparse_spectrum(stiffness: Any) -> Spectrum:
@@ -213,7 +229,7 @@ def _sparse_spectrum(stiffness: Any) -> Spectrum:
     start = np.cos(np.arange(n, dtype=float))
     try:
         near = eigs(jac, k=_NEAREST, sigma=shift, v0=start, return_eigenvectors=False)
-        result = _classify(near, noise + 0.0 * near.real, conservative=False)
+        result = _classify(near, noise + 0.0 * near.real)
     except RuntimeError:  # no convergence, or exactly singular
         result = _undefined(_NEAREST)
     if abs(jac - jac.T).max() <= _SYMMETRY_NOISE * size:

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import linalg
-from scipy.optimize import linear_sum_assignment
 
 from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.spectra.abreast import DIPS, ERRS, Tracks, coefficients, singular_at, within
 from mjcont.numerics.spectra.spectrum import companion, symmetric
 from mjcont.numerics.spectra.stability import negative_stiffness, spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint
@@ -29,12 +29,9 @@ _FOURTH, _SECOND, _OWN = 1e-11, 1e-10, 1e-12
 # no eigenvalue vanishes where the inverse is that small, in parts of the matrix
 _FAR = 1e-8
 # eigenvectors more nearly orthogonal to their left ones than this give no slope
-_DEFECTIVE = 1e-5
+DEFECTIVE = 1e-5
 # unknowns up to which eigenvalues are followed
-_MANY = 128
-# a cubic whose smallest value is below this part of those at its ends may touch zero; one errs by less than this part
-# of how far straight lines along its slopes miss its ends
-_DIPS, _ERRS = 0.5, 0.25
+MANY = 128
 _GRID = np.linspace(0.0, 1.0, 17)[1:-1]
 _GRID_ERRORS = 16.0 * (_GRID * (1.0 - _GRID)) ** 2
 # a root of det J(t) this near to a point that holds the eigenvalue is that point's
@@ -106,7 +103,7 @@ def motion_at(point: CurvePoint) -> Motion | None:
 
 def _motion(point: CurvePoint) -> Motion | None:
     jac = point.local.raw_jac
-    if not isinstance(jac, np.ndarray) or len(jac) > _MANY or not np.all(np.isfinite(jac)):
+    if not isinstance(jac, np.ndarray) or len(jac) > MANY or not np.all(np.isfinite(jac)):
         return None
     second = point.local.problem.second_order
     noise = _SECOND if second else _FOURTH
@@ -126,10 +123,27 @@ def _motion(point: CurvePoint) -> Motion | None:
     except (linalg.LinAlgError, ValueError):
         return None
     products = np.einsum("ij,ij->j", left.conj(), right)
-    sure = np.abs(products) > _DEFECTIVE
+    sure = np.abs(products) > DEFECTIVE
     left = left / np.where(sure, products, 1.0).conj()
-    unsure = noise * np.abs(matrix).max() + _OWN * np.abs(values)
+    unsure = _unsure(values, float(np.abs(matrix).max()), noise)
     return Motion(jac, own, noise, Modes(matrix, values, right, left, unsure, sure))
+
+
+def _unsure(values: Array, size: float | Array, noise: float) -> Array:
+    """Return how near to the axis eigenvalues cannot be told from it, for matrices of a size."""
+    found: Array = noise * size + _OWN * np.abs(values)
+    return found
+
+
+def eigenvalue_noise(values: Array, jacs: Array) -> Array:
+    """Return the noise of the eigenvalues (m, n) of first-order systems with matrices (m, n, n)."""
+    return _unsure(values, np.abs(jacs).max(axis=(1, 2))[:, None], _FOURTH)
+
+
+def vanishes(values: Array, jacs: Array) -> Array:
+    """Return which eigenvalues (m, n) of first-order systems are nothing beside their matrices (m, n, n)."""
+    found: Array = np.abs(values) <= _FOURTH * np.abs(jacs).max(axis=(1, 2))[:, None]
+    return found
 
 
 def _smallest(matrix: Array) -> Array:
@@ -159,7 +173,8 @@ def meetings(nodes: Sequence[CurvePoint], i: int, parts: Sequence[Array], follow
     As the matrices `interpolated` between them and the eigenvalues followed by `tracks` tell. Eigenvalues on the axis
     at one end are left out: what lies on a point belongs to the steps on both sides.
     """
-    return sorted([*_zeros(nodes, i, parts), *([] if followed is None else followed.meetings())], key=lambda m: m.at)
+    oscillations = [] if followed is None else _oscillations(followed)
+    return sorted([*_zeros(nodes, i, parts), *oscillations], key=lambda m: m.at)
 
 
 def _around(nodes: Sequence[CurvePoint], i: int) -> list[CurvePoint]:
@@ -176,10 +191,8 @@ def interpolated(nodes: Sequence[CurvePoint], i: int) -> list[Array]:
     every = [(p, m) for p in _around(nodes, i) if (m := motion_at(p)) is not None]
     if not b.s > a.s or len(every) < 2:
         return []
-    places = [(p.s - a.s) / (b.s - a.s) for p, _ in every]
-    inverse = np.linalg.inv(np.vander(places, increasing=True))
-    stack = np.array([m.jac for _, m in every])
-    return list(np.tensordot(inverse, stack, axes=1))
+    places = np.array([(p.s - a.s) / (b.s - a.s) for p, _ in every])
+    return list(coefficients(places[None], np.array([m.jac for _, m in every])[None])[0])
 
 
 def _zeros(nodes: Sequence[CurvePoint], i: int, parts: Sequence[Array]) -> list[Meeting]:
@@ -187,8 +200,10 @@ def _zeros(nodes: Sequence[CurvePoint], i: int, parts: Sequence[Array]) -> list[
     a, b = motion_at(nodes[i]), motion_at(nodes[i + 1])
     if a is None or b is None or (a.held and b.held):
         return []
-    roots = _polynomial_eigenvalues(parts)
-    inside = [complex(r) for r in roots if 0.0 < r.real < 1.0 and abs(r.imag) < min(r.real, 1.0 - r.real)]
+    if not (len(parts) > 1 and all(np.isfinite(p).all() for p in parts)):
+        return []
+    roots = singular_at(np.array(parts)[None])[0]
+    inside = [complex(r) for r in roots[within(roots)]]
     for held, end in ((a.held, 0.0), (b.held, 1.0)):
         own = sorted((r for r in inside if abs(r - end) < _OWN_ROOT), key=lambda r: abs(r - end))[:held]
         inside = [r for r in inside if r not in own]
@@ -196,61 +211,13 @@ def _zeros(nodes: Sequence[CurvePoint], i: int, parts: Sequence[Array]) -> list[
     return crossing + [Meeting(r.real, False, False) for r in inside if r.imag > 0.0]
 
 
-def _polynomial_eigenvalues(parts: Sequence[Array]) -> Array:
-    """Return the t for which A0 + A1 t + A2 t^2 is singular; A0 is the matrix at a point of the curve.
-
-    As eigenvalues 1 / t of the companion matrix of A0^-1 A1, A0^-1 A2.
-    """
-    if not (len(parts) > 1 and all(np.isfinite(p).all() for p in parts)):
-        return np.zeros(0)
-    n = len(parts[0])
-    try:
-        below = np.linalg.solve(parts[0], np.concatenate(parts[1:], axis=1))
-        matrix = -below
-        if len(parts) > 2:
-            matrix = np.block([[-below], [np.eye(n), np.zeros((n, n))]])
-        inverse = np.linalg.eigvals(matrix) if np.isfinite(matrix).all() else np.zeros(0)
-    except np.linalg.LinAlgError:
-        return np.zeros(0)
-    found: Array = 1.0 / inverse[np.abs(inverse) > 1e-12]
-    return found[np.isfinite(found)]
-
-
-@dataclass(frozen=True, slots=True)
-class Tracks:
-    """Eigenvalues between two points: values (N,) and slopes over the step (N,) at both, one index for one eigenvalue.
-
-    Attributes
-    ----------
-    errors : (N,) how far straight lines along the slopes at one end miss the real parts at the other.
-    noise : (N,) how near zero a real part says nothing.
-    """
-
-    start: Array
-    end: Array
-    start_slope: Array
-    end_slope: Array
-    errors: Array
-    noise: Array
-
-    def at(self, t: float) -> Array:
-        """Return the eigenvalues at a fraction of the step, on their cubics."""
-        square, rest = t * t, 1.0 - t
-        found: Array = (1.0 + 2.0 * t) * rest * rest * self.start + t * rest * rest * self.start_slope
-        found = found + square * (3.0 - 2.0 * t) * self.end - square * rest * self.end_slope
-        return found
-
-    def meetings(self) -> list[Meeting]:
-        """Return where oscillations reach the axis, or come so near that they may."""
-        y0, y1, d0, d1 = (np.real(a) for a in (self.start, self.end, self.start_slope, self.end_slope))
-        away = (np.abs(y0) > self.noise) & (np.abs(y1) > self.noise)
-        oscillates = (np.imag(self.start) > self.noise) & (np.imag(self.end) > self.noise)
-        hull = np.array([y0, y0 + d0 / 3.0, y1 - d1 / 3.0, y1]) * np.sign(y0)
-        floor = np.maximum(_DIPS * np.minimum(np.abs(y0), np.abs(y1)), _ERRS * self.errors)
-        found: list[Meeting] = []
-        for k in np.flatnonzero(away & oscillates & (hull.min(axis=0) < floor)).tolist():
-            found += _of_cubic(*(float(a[k]) for a in (y0, d0, y1, d1, self.errors)))
-        return found
+def _oscillations(followed: Tracks) -> list[Meeting]:
+    """Return where oscillations reach the axis, or come so near that they may."""
+    real = [np.real(a) for a in (followed.start, followed.start_slope, followed.end, followed.end_slope)]
+    found: list[Meeting] = []
+    for k in np.flatnonzero(followed.near).tolist():
+        found += _of_cubic(*(float(a[k]) for a in (*real, followed.errors)))
+    return found
 
 
 def _of_cubic(y0: float, d0: float, y1: float, d1: float, error: float) -> list[Meeting]:
@@ -266,9 +233,9 @@ def _of_cubic(y0: float, d0: float, y1: float, d1: float, error: float) -> list[
         return [Meeting(y0 / (y0 - y1), True, True)]
     turns = np.roots([3.0 * c3, 2.0 * c2, d0])
     lowest = [float(t.real) for t in turns if abs(t.imag) < 1e-12 and 0.0 < t.real < 1.0]
-    away = np.abs(y0 + _GRID * (d0 + _GRID * (c2 + _GRID * c3))) - _ERRS * error * _GRID_ERRORS
+    away = np.abs(y0 + _GRID * (d0 + _GRID * (c2 + _GRID * c3))) - ERRS * error * _GRID_ERRORS
     unsure = [float(_GRID[away.argmin()])] if away.min() < 0.0 else []
-    dips = [t for t in lowest if abs(y0 + t * (d0 + t * (c2 + t * c3))) < _DIPS * min(abs(y0), abs(y1))]
+    dips = [t for t in lowest if abs(y0 + t * (d0 + t * (c2 + t * c3))) < DIPS * min(abs(y0), abs(y1))]
     return [Meeting(t, False, True) for t in (dips or unsure)[:1]]
 
 
@@ -280,14 +247,10 @@ def tracks(nodes: Sequence[CurvePoint], i: int) -> Tracks | None:
     if a is None or b is None or len(a.values) != len(b.values) or not h > 0.0:
         return None
     start_slope, end_slope = h * _slopes(nodes, i, i), h * _slopes(nodes, i, i + 1)
-    forwards = np.abs((a.values + start_slope)[:, None] - b.values[None, :])
-    backwards = np.abs(a.values[:, None] - (b.values - end_slope)[None, :])
-    rows, columns = linear_sum_assignment(forwards + backwards)
-    start, end = a.values[rows], b.values[columns]
-    secant, sure = end - start, a.sure[rows] & b.sure[columns]
-    first, last = np.where(sure, start_slope[rows], secant), np.where(sure, end_slope[columns], secant)
-    errors = np.maximum(np.abs((first - secant).real), np.abs((last - secant).real))
-    return Tracks(start, end, first, last, errors, np.maximum(a.noise[rows], b.noise[columns]))
+    first, last = (
+        (m.values[None], slope[None], m.sure[None], m.noise[None]) for m, slope in ((a, start_slope), (b, end_slope))
+    )
+    return Tracks.matched(first, last).chosen(0)
 
 
 def _slopes(nodes: Sequence[CurvePoint], i: int, at: int) -> Array:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.points.glance import glance
 from mjcont.numerics.points.looking import look
 from mjcont.numerics.spectra.stability import negative_stiffness, tell
 from mjcont.numerics.step.arclength import CurvePoint, advance, aim, follows, predict, turned_back
@@ -59,7 +60,9 @@ class Filled(OneByOne):
         if len(leaps) > 1 and leaps[-1].ending is None and not shorter:
             self._leaps = [leaps.pop()]
         found: list[Step | End] = []
-        for leap, inside in zip(leaps, self._long.inside([(s.old, s.new) for s in leaps]), strict=False):
+        insides = self._long.inside([(s.old, s.new) for s in leaps])
+        self._glance(leaps, insides)
+        for leap, inside in zip(leaps, insides, strict=False):
             step = self._filled(leap, inside)
             if isinstance(step, Refused):
                 self._long.refused(leap.h)
@@ -67,6 +70,16 @@ class Filled(OneByOne):
                 return [*found, self.step(leap.old, step.shorter or 0.0)]
             found.append(replace(step, next=shorter) if shorter and leap is leaps[-1] else step)
         return found
+
+    def _glance(self, leaps: Sequence[Leap], insides: Sequence[Interior | Refused]) -> None:
+        """Note between which points of several steps nothing lies, where all of them are to be looked at anyway."""
+        chain = [leaps[0].old]
+        for leap, inside in zip(leaps, insides, strict=False):
+            if isinstance(inside, Refused):
+                break
+            every = [leap.old, *inside.points, leap.new]
+            chain += [every[j] for _, j in self._long.spans(leap.old, leap.new, inside)]
+        glance(self.system, chain, self.settings)
 
     def _run_ahead(self, point: CurvePoint, h: float) -> float:
         """Add long steps to those that wait to be filled; return what length to try where one is refused, else 0."""

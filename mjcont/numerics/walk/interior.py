@@ -18,7 +18,7 @@ import numpy as np
 from mjcont.numerics.equations.algebra import inverses
 from mjcont.numerics.equations.bordered import Factored
 from mjcont.numerics.equations.newton import LARGEST_ERROR, length, with_row
-from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.problem import Array, Linearization
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System, equation_sizes
@@ -90,7 +90,8 @@ class Gap:
 class _Rows:
     """The points inside several steps side by side: arclengths (m,), states, coordinates, tangents and matrices.
 
-    `astray` is the first step whose points lie far from its chord, the number of steps if there is none.
+    `astray` is the first step whose points lie far from its chord, the number of steps if there is none. `own` are the
+    points' own f, df/dx and df/dp, where they are taken.
     """
 
     at: Array
@@ -99,6 +100,7 @@ class _Rows:
     tangents: Array
     jacs: Array
     astray: int
+    own: tuple[Array, Array, Array] | None = None
 
 
 def count_inside(length: float, angle: float, settings: Settings) -> int:
@@ -107,30 +109,37 @@ def count_inside(length: float, angle: float, settings: Settings) -> int:
     return math.ceil(min(needed, MOST + 1.0)) if needed > _SLACK else 0
 
 
-def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool) -> list[Interior | Refused]:
+def fill(
+    system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool, own: bool = False
+) -> list[Interior | Refused]:
     """Return the points inside steps that follow each other, up to the first that is refused.
 
     The points' tangents and matrices are interpolated, except around what `changed` tells; with `exact` they are
     taken at the interpolated states. Stiff bushes need that: what they push along turns with the mechanism, and
-    interpolation errs by stiffness times the square of the angle by which it misses.
+    interpolation errs by stiffness times the square of the angle by which it misses. With `own` they are those of the
+    points, which are looked at one by one then: interpolation does not see what happens between the steps' ends.
     """
     if not any(g.count for g in gaps):
         return _checked(system, gaps, [Interior([]) for _ in gaps], settings)
-    n = system.n
     rows = _interpolated(system, gaps)
     if rows.astray < len(gaps):
-        found = fill(system, gaps[: rows.astray], settings, exact=exact) if rows.astray else []
+        found = fill(system, gaps[: rows.astray], settings, exact=exact, own=own) if rows.astray else []
         refused = any(isinstance(f, Refused) for f in found)
         swings = Refused(Why.SWINGS, "the polynomial through the points around the step swings")
         return found if refused else [*found, swings]
     first: Array | None = None
     if exact:
-        first, rows.jacs = _linearized(system, rows.states, rows.coordinates)
-    matrix = np.empty((len(rows.at), n + 1, n + 1))
-    matrix[:, :n], matrix[:, n] = rows.jacs, rows.tangents
+        first, *rates = _linearized(system, rows.states, rows.coordinates)
+        rows.jacs = _in_unknowns(system, rows.coordinates, *rates)
+    matrix = _bordered(rows)
     inverse = inverses(matrix)
     residuals, sizes = _corrected(system, rows, [g.count for g in gaps], inverse, first, exact)
     errors = np.max(np.abs(residuals) / equation_sizes(rows.jacs), axis=1)
+    if own:
+        rows.own = _linearized(system, rows.states, rows.coordinates)
+        rows.jacs = _in_unknowns(system, rows.coordinates, *rows.own[1:])
+        matrix = _bordered(rows)
+        inverse = inverses(matrix)
     columns = inverse[:, :, -1]
     rows.tangents = columns / np.sqrt((columns * columns).sum(axis=1))[:, None]
     signs, settled, start = np.sign(np.linalg.det(matrix)), list[Interior](), 0
@@ -149,7 +158,7 @@ def fill(system: System, gaps: Sequence[Gap], settings: Settings, *, exact: bool
             settled.append(Interior(points, history[0], history[1] / max(history[0], _ROUNDING)))
         if refusal:
             break
-    checked = _checked(system, gaps[: len(settled)], settled, settings)
+    checked = _checked(system, gaps[: len(settled)], settled, settings, own)
     complete = len(checked) == len(settled) and not any(isinstance(c, Refused) for c in checked)
     return [*checked, *refusal] if complete else checked
 
@@ -230,6 +239,11 @@ def _corrected(
     return residuals, sizes
 
 
+def _bordered(rows: _Rows) -> Array:
+    """Return matrices with the tangents below them, (m, n + 1, n + 1)."""
+    return np.concatenate([rows.jacs, rows.tangents[:, None]], axis=1)
+
+
 def _points(
     system: System, rows: _Rows, part: slice, residuals: Array, errors: Array, signs: Array
 ) -> list[CurvePoint]:
@@ -239,6 +253,9 @@ def _points(
     points = []
     for i, local in enumerate(every, part.start):
         local.keep(residuals[i])
+        if rows.own is not None:
+            f, jac, par = (part[i] for part in rows.own)
+            local.take(Linearization(f, jac, par[:, None]))
         point = CurvePoint(
             rows.states[i], rows.coordinates[i], rows.tangents[i], float(signs[i]), local, rows.jacs[i],
             float(rows.at[i]), float(errors[i]),
@@ -248,20 +265,22 @@ def _points(
     return points
 
 
-def _linearized(system: System, states: Array, coordinates: Array) -> tuple[Array, Array]:
-    """Return f (m, n) and G_z in scaled unknowns (m, n, n + 1) at states."""
+def _linearized(system: System, states: Array, coordinates: Array) -> tuple[Array, Array, Array]:
+    """Return f (m, n), df/dx (m, n, n) and df/dp (m, n) at states."""
     (p,) = system.free
     column = p.values(coordinates[:, 0])
     found = system.problem.linearize_along(states, system.base, p.name, column, (p.low, p.high))
-    if found is None:
-        every = system.locals_along(states, column)
-        jacs = [system.jacobian(local, y) for local, y in zip(every, coordinates, strict=True)]
-        return np.array([local.f for local in every]), np.array(jacs)
-    f, jac, par = found
-    out = np.empty((len(states), system.n, system.n + 1))
-    out[:, :, :-1] = jac * system.problem.state_scale
-    out[:, :, -1] = par * np.array([p.slope(u) for u in coordinates[:, 0].tolist()])[:, None]
-    return f, out
+    if found is not None:
+        return found
+    every = [local.linearization for local in system.locals_along(states, column)]
+    return np.array([e.f for e in every]), np.array([e.jac for e in every]), np.array([e.par[:, 0] for e in every])
+
+
+def _in_unknowns(system: System, coordinates: Array, jac: Array, par: Array) -> Array:
+    """Return G_z in scaled unknowns (m, n, n + 1) for derivatives in physical units."""
+    (p,) = system.free
+    slopes = np.array([p.slope(u) for u in coordinates[:, 0].tolist()])
+    return np.concatenate([jac * system.problem.state_scale, (par * slopes[:, None])[:, :, None]], axis=2)
 
 
 def _settled(sizes: list[float]) -> bool:
@@ -282,16 +301,17 @@ def _contracting(sizes: list[float], exact: bool) -> bool:
 
 
 def _checked(
-    system: System, gaps: Sequence[Gap], insides: Sequence[Interior], settings: Settings
+    system: System, gaps: Sequence[Gap], insides: Sequence[Interior], settings: Settings, own: bool = False
 ) -> list[Interior | Refused]:
-    """Return the insides with changes told, up to the first step that is refused."""
+    """Return the insides with changes told, up to the first step that is refused; `own` as for `fill`."""
     if not gaps:
         return []
     every, ends, unsure = [gaps[0].old], [0], [0.0]
     for gap, inside in zip(gaps, insides, strict=True):
         every += [*inside.points, gap.new]
         ends.append(len(every) - 1)
-        unsure += [min(max(5.0 * inside.rate, _UNSURE), _TURNING)] * len(inside.points) + [0.0]
+        off = 0.0 if own else min(max(5.0 * inside.rate, _UNSURE), _TURNING)
+        unsure += [off] * len(inside.points) + [0.0]
     tangents = np.array([p.tangent for p in every])
     turned = (tangents[1:] * tangents[:-1]).sum(axis=1) < math.cos(settings.angle_max)
     changes, twice = _settled_changes(system, every, tangents[:, system.n].copy(), np.array(unsure))

@@ -66,15 +66,16 @@ class LongSteps:
             return [Refused(Why.CROWDED, "the step needs too many points inside")]
         if not any(g.count for g in fit):
             return [Interior([]) for _ in fit]
+        own = any(self.index(g.old) is None for g in fit)  # every point inside is looked at
         if self._exact:
             self._interpolated *= _LONGER_INTERPOLATED
-            return fill(self.system, fit, self.settings, exact=True)
-        found = fill(self.system, fit, self.settings, exact=False)
+            return fill(self.system, fit, self.settings, exact=True, own=own)
+        found = fill(self.system, fit, self.settings, exact=False, own=own)
         # a step without points inside tells nothing of interpolated matrices, even where it is refused
         limits = [self._limit(g, inside) for g, inside in zip(fit, found, strict=False) if g.count]
         self._interpolated = min(limits, default=self._interpolated)
         again = isinstance(found[0], Refused) and fit[0].count > 0 and self._exact
-        return fill(self.system, fit[:1], self.settings, exact=True) if again else found
+        return fill(self.system, fit[:1], self.settings, exact=True, own=own) if again else found
 
     @staticmethod
     def _limit(gap: Gap, inside: Interior | Refused) -> float:
