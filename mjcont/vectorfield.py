@@ -39,6 +39,8 @@ from mjcont.results.quantities import (
 _FAR, _LEAST = 20.0, 1e-3
 # components all below this part of the scale are zero, as far as equations without a scale can tell
 _NOTHING = 1e-8
+# more components than this are those of a function on a grid
+_GRID = 50
 
 
 class VectorField(Model):
@@ -61,7 +63,8 @@ class VectorField(Model):
         Units of parameters and components, by name.
     scale : array_like, (n,), optional
         Typical size of each component, for arclength and difference steps. Without it the verbs that follow curves
-        start from 1 and take the sizes that the components are found to have, where these are far from it.
+        start from 1 and take the sizes that the components are found to have, where these are far from it; and more
+        than 50 components count in arclength by the root of their mean square, as values of a function on a grid.
     bounds : mapping of str to (low, high), optional
         Default range of each parameter.
     period : callable, optional
@@ -104,10 +107,11 @@ class VectorField(Model):
             raise ParameterError("u0 is empty: a vector field needs at least one unknown")
         self.u0 = finite_array("u0", np.atleast_1d(u0), (self.n,))
         self.function, self.jacobian = function, jacobian
-        self.state_scale = np.ones(self.n) if scale is None else finite_array("scale", scale, (self.n,))
-        if not np.all(self.state_scale > 0.0):
-            raise ParameterError(f"scale must be positive, got {self.state_scale}")
         self.follows_scale = scale is None
+        self._typical = np.ones(self.n) if scale is None else finite_array("scale", scale, (self.n,))
+        if not np.all(self._typical > 0.0):
+            raise ParameterError(f"scale must be positive, got {self._typical}")
+        self.state_scale = self._unit(self._typical)
         # by thread: what one computes costs what that one evaluates; shared with copies of another scale
         self._counts: dict[int, int] = {}
         units, bounds = units or {}, bounds or {}
@@ -121,8 +125,6 @@ class VectorField(Model):
         }
         for parameter in self.parameters.values():
             parameter.check(parameter.value)
-        if not np.all((self.state_scale > 0) & np.isfinite(self.state_scale)):
-            raise ParameterError(f"scale: typical sizes must be positive numbers, got {self.state_scale.tolist()}")
         labels = list(names) if names is not None else [f"u[{i}]" for i in range(self.n)]
         if len(labels) != self.n:
             raise ParameterError(f"names: expected {self.n} names for the components of u, got {len(labels)}")
@@ -147,15 +149,28 @@ class VectorField(Model):
         top = float(sizes.max())
         if not (self.follows_scale and 0.0 < top < np.inf):
             return None
-        ratio = sizes / self.state_scale
+        ratio = sizes / self.typical
         if not np.any(ratio > _NOTHING):  # rest at zero, but for rounding
             return None
         if not (np.any(ratio > _FAR) or (not grow and np.all(ratio < 1.0 / _FAR))):
             return None
         field = copy.copy(self)
         # to two digits: no last bit decides; a component that hardly moves tells nothing
-        field.state_scale = np.array([float(f"{max(s, _LEAST * top):.1e}") for s in sizes.tolist()])
+        field._typical = np.array([float(f"{max(s, _LEAST * top):.1e}") for s in sizes.tolist()])
+        field.state_scale = self._unit(field._typical)
         return field
+
+    @property
+    def typical(self) -> Array:
+        """Typical size of each component, (n,), for difference steps."""
+        return self._typical
+
+    def _unit(self, typical: Array) -> Array:
+        """Return the unit of each component in arclength, (n,): a scale that was given, as it stands.
+
+        Many components are a function on a grid: their norm is the root of the mean square, whatever their number.
+        """
+        return typical * np.sqrt(self.n) if self.follows_scale and self.n > _GRID else typical
 
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return the state given, or u0."""
@@ -225,8 +240,8 @@ class VectorField(Model):
         if self.jacobian is not None:
             jac = self._own_jacobian(self.jacobian, x, values)
         else:
-            steps = jacobian_steps(self.state_scale, FOURTH_ORDER)
-            jac = jacobian_from_rows(self.residuals(x, values, steps), self.state_scale, FOURTH_ORDER)
+            steps = jacobian_steps(self.typical, FOURTH_ORDER)
+            jac = jacobian_from_rows(self.residuals(x, values, steps), self.typical, FOURTH_ORDER)
         par = np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
             rule, h = self.parameter_stencil(name, values[name], ranges[k] if ranges else None)

@@ -70,6 +70,10 @@ class Local:
         """Take the residual, (n,), computed elsewhere."""
         self._residual = residual
 
+    def forget(self) -> None:
+        """Let matrices go: they are computed again where somebody asks for them."""
+        self._residual, self._lin, self._jac, self._pencil = self.f, None, None, None
+
     def _linearize(self) -> Linearization:
         if self._lin is None:
             self._lin = self.problem.linearize(
