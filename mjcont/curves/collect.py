@@ -53,9 +53,12 @@ Progress = Callable[[int, Found], None]
 Amount = Callable[[float, float], None]
 
 
-def make_point(problem: Model, x: Array, values: Values, kind: str = "") -> Point:
-    """Return the Point of an equilibrium, or of a special point of a kind, with observables, eigenvalues, stability."""
-    s = local_spectrum(Local(problem, x, values, (), False))
+def make_point(problem: Model, x: Array, values: Values, kind: str = "", s: Spectrum | None = None) -> Point:
+    """Return the Point of an equilibrium, or of a special point of a kind, with observables, eigenvalues, stability.
+
+    `s` is its spectrum, where that is known.
+    """
+    s = local_spectrum(Local(problem, x, values, (), False)) if s is None else s
     word, count = verdict_at(KINDS[kind].holds, s) if holds_eigenvalues(kind) else (s.stability, s.n_unstable)
     measured = problem.measure(x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
