@@ -42,6 +42,8 @@ from mjcont.results.quantities import (
 _FAR, _LEAST = 20.0, 1e-3
 # components all below this part of the scale are zero, as far as equations without a scale can tell
 _NOTHING = 1e-8
+# more components than this are those of a function on a grid
+_GRID = 50
 
 
 class VectorField(Model):
@@ -79,7 +81,8 @@ class VectorField(Model):
         Units of parameters and components, by name; an array's for all its entries.
     scale : array_like, (n,), optional
         Typical size of each component, for arclength and difference steps. Without it the verbs that follow curves
-        start from 1 and take the sizes that the components are found to have, where these are far from it.
+        start from 1 and take the sizes that the components are found to have, where these are far from it; and more
+        than 50 components count in arclength by the root of their mean square, as values of a function on a grid.
     bounds : mapping of str to (low, high), optional
         Default range of each parameter.
     period : callable, optional
@@ -135,11 +138,12 @@ class VectorField(Model):
         self.timed, self.vectorized = timed, vectorized
         # which derivatives were held against differences already; shared with copies of another scale
         self._held_against = set[str]()
-        self.state_scale = np.ones(self.n) if scale is None else finite_array("scale", scale, (self.n,))
-        if not np.all(self.state_scale > 0.0):
-            raise ParameterError(f"scale must be positive, got {self.state_scale}")
         self.follows_scale = scale is None
-        self._f = Evaluated(name, function, self.n, timed, vectorized, self._arrays, self.state_scale)
+        self._typical = np.ones(self.n) if scale is None else finite_array("scale", scale, (self.n,))
+        if not np.all(self._typical > 0.0):
+            raise ParameterError(f"scale must be positive, got {self._typical}")
+        self.state_scale = self._unit(self._typical)
+        self._f = Evaluated(name, function, self.n, timed, vectorized, self._arrays, self._typical)
         units = self._arrays.spread(units or {}, default)
         self.parameters = self._declared(default, units, self._arrays.spread(bounds or {}, default))
         labels = list(names) if names is not None else [f"u[{i}]" for i in range(self.n)]
@@ -180,15 +184,28 @@ class VectorField(Model):
         top = float(sizes.max())
         if not (self.follows_scale and 0.0 < top < np.inf):
             return None
-        ratio = sizes / self.state_scale
+        ratio = sizes / self.typical
         if not np.any(ratio > _NOTHING):  # rest at zero, but for rounding
             return None
         if not (np.any(ratio > _FAR) or (not grow and np.all(ratio < 1.0 / _FAR))):
             return None
         field = copy.copy(self)
         # to two digits: no last bit decides; a component that hardly moves tells nothing
-        field.state_scale = np.array([float(f"{max(s, _LEAST * top):.1e}") for s in sizes.tolist()])
+        field._typical = np.array([float(f"{max(s, _LEAST * top):.1e}") for s in sizes.tolist()])
+        field.state_scale = self._unit(field._typical)
         return field
+
+    @property
+    def typical(self) -> Array:
+        """Typical size of each component, (n,), for difference steps."""
+        return self._typical
+
+    def _unit(self, typical: Array) -> Array:
+        """Return the unit of each component in arclength, (n,): a scale that was given, as it stands.
+
+        Many components are a function on a grid: their norm is the root of the mean square, whatever their number.
+        """
+        return typical * np.sqrt(self.n) if self.follows_scale and self.n > _GRID else typical
 
     def start_state(self, keyframe: str | None = None, state: Array | None = None) -> Array:
         """Return the state given, or u0."""
@@ -240,8 +257,8 @@ class VectorField(Model):
         if self.jacobian is not None:
             jac = self._own_jacobian(x, values)
         else:
-            steps = jacobian_steps(self.state_scale, FOURTH_ORDER)
-            jac = jacobian_from_rows(self.residuals(x, values, steps), self.state_scale, FOURTH_ORDER)
+            steps = jacobian_steps(self.typical, FOURTH_ORDER)
+            jac = jacobian_from_rows(self.residuals(x, values, steps), self.typical, FOURTH_ORDER)
         own, par = self._own_slopes(x, values, wrt), np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
             if name in own:
@@ -284,7 +301,7 @@ class VectorField(Model):
     ) -> tuple[Array, Any, Array]:
         """Return f, df/du and df/dp at states of a vectorized field, as `together.linearized` does."""
         own = self._own_jacobian if self.jacobian is not None else None
-        given = (self.rates_together, self.parameter_stencil, self.state_scale, self._own_slopes, own)
+        given = (self.rates_together, self.parameter_stencil, self.typical, self._own_slopes, own)
         return linearized(*given, states, values, columns, ranges)
 
     # -- derivatives of the user's own -------------------------------------------------------------------------
@@ -359,7 +376,7 @@ class VectorField(Model):
     def _held(self, x: Array, values: Values) -> Held:
         labels = [label for label, _ in self.state_labels]
         seen = self._arrays.seen(values)
-        return Held(self._given, x, seen, labels, self.state_scale, lambda steps: self.residuals(x, values, steps))
+        return Held(self._given, x, seen, labels, self.typical, lambda steps: self.residuals(x, values, steps))
 
     def _check_slope(self, x: Array, values: Values, name: str, slope: Array) -> None:
         def ray(changes: Array) -> Array:

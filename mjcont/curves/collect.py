@@ -20,6 +20,7 @@ from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.points.kinds import KINDS, holds_eigenvalues
+from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum, verdict_at
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.steps import End, Item, Status
@@ -52,13 +53,23 @@ Progress = Callable[[int, Found], None]
 Amount = Callable[[float, float], None]
 
 
-def make_point(problem: Model, x: Array, values: Values, kind: str = "") -> Point:
-    """Return the Point of an equilibrium, or of a special point of a kind, with observables, eigenvalues, stability."""
-    s = local_spectrum(Local(problem, x, values, (), False))
+def make_point(problem: Model, x: Array, values: Values, kind: str = "", s: Spectrum | None = None) -> Point:
+    """Return the Point of an equilibrium, or of a special point of a kind, with observables, eigenvalues, stability.
+
+    `s` is its spectrum, where that is known.
+    """
+    s = local_spectrum(Local(problem, x, values, (), False)) if s is None else s
     word, count = verdict_at(KINDS[kind].holds, s) if holds_eigenvalues(kind) else (s.stability, s.n_unstable)
     measured = problem.measure(x[None], values)[0]
     observables = dict(zip(problem.observables, (float(v) for v in measured), strict=True))
-    return Point(dict(values), observables, x.copy(), s.eigenvalues, word, count, problem, units(problem))
+    return Point(dict(values), observables, x.copy(), s.eigenvalues, word, count, problem, units(problem), doubt(s))
+
+
+def doubt(s: Spectrum) -> str:
+    """Return what is not known of stability, a sentence; empty where all is known."""
+    if s.proven:
+        return ""
+    return f"stability is known for the nearest {len(s.eigenvalues)} eigenvalues: others may be unstable"
 
 
 def _found(system: System, item: CurvePoint | Located, direction: int) -> Found:
@@ -230,7 +241,7 @@ def build_branch(
             for t in traces
             for e in t.neutral
         ],
-        notes=(*notes, *_springs(rows), *_left_out(rows), *_unexplained(kind, rows, stability, n_unstable)),
+        notes=(*notes, *_springs(rows), *_left_out(rows), *_on_stability(kind, rows, stability, n_unstable, spectra)),
         fixed_units={k: u for k, u in unit_of.items() if k in base and k not in system.names},
     )
 
@@ -273,6 +284,16 @@ def _left_out(rows: CurveRows) -> list[str]:
     if not rows.left_out:
         return []
     return [f"{rows.left_out} rows between points did not settle and are left out: chords are longer there"]
+
+
+def _on_stability(
+    kind: str, rows: CurveRows, stability: Array, n_unstable: Array, spectra: Sequence[Spectrum | None]
+) -> list[str]:
+    """Return a sentence on rows of whose eigenvalues not all that may be unstable are known, else on `_unexplained`."""
+    unsure = [s for s in spectra if s is not None and not s.proven]
+    if not unsure:
+        return _unexplained(kind, rows, stability, n_unstable)
+    return [f"in {len(unsure)} of {len(spectra)} rows {doubt(min(unsure, key=lambda s: len(s.eigenvalues)))}"]
 
 
 def _unexplained(kind: str, rows: CurveRows, stability: Array, n_unstable: Array) -> list[str]:

@@ -116,7 +116,7 @@ def _prepare(problem: Model, values: dict[str, float], region: Region | None) ->
     single = bool(notes) or problem.own_jacobian
     labels = problem.state_labels
     entries = {name.removeprefix("joint:").removeprefix("state:"): ends for name, ends in ranges.items()}
-    coordinates = Coordinates(held, layout(labels, problem.state_scale, home, entries))
+    coordinates = Coordinates(held, layout(labels, problem.typical, home, entries))
     search = _Search(held, values, coordinates, _many(held, values, coordinates, single), ranges, region, notes)
     search.learn_turns(labels)
     return search

@@ -16,6 +16,7 @@ from mjcont.numerics.points.on_equilibria import (
     fold_detector,
     zero_detector,
 )
+from mjcont.numerics.spectra.stability import SPECTRUM
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.walk.filled import Filled
 from mjcont.numerics.walk.onebyone import OneByOne
@@ -46,7 +47,7 @@ def point_stop(
             value = float(measured.get(name, values.get(name, 0.0)))
             if not low <= value <= high:
                 return f"{name} = {value:.6g} left its limits {low:g} .. {high:g}"
-        return stop(make_point(problem, p.x, values)) if stop is not None else None
+        return stop(make_point(problem, p.x, values, s=SPECTRUM.get(p))) if stop is not None else None
 
     return check
 

@@ -182,6 +182,6 @@ def nudged(point: Point, amplitude: float) -> Array:
     model, found = point.model, modes(point)
     growing = [m for m in found if m.growing]
     mode = max(growing, key=lambda m: m.eigenvalue.real) if growing else found[0]  # the slowest
-    shape = mode.shape / model.state_scale
+    shape = mode.shape / model.typical
     largest = shape[int(np.flatnonzero(np.abs(shape) >= _AS_LARGE * np.abs(shape).max())[0])]
-    return model.retract(point.state, amplitude * model.state_scale * (shape / largest).real)
+    return model.retract(point.state, amplitude * model.typical * (shape / largest).real)

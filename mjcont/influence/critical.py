@@ -20,9 +20,10 @@ from mjcont.curves.loci import CODIMENSION, followed_as
 from mjcont.curves.walkers import monitor_of
 from mjcont.errors import MjcontError, ParameterError
 from mjcont.numerics.equations.bordered import Factored, oriented
-from mjcont.numerics.equations.defining import Fold, Transversality
+from mjcont.numerics.equations.defining import Fold
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.newton import Corrected, known_to, solve
+from mjcont.numerics.equations.onfolds import Transversality
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.system import Local, System

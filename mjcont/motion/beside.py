@@ -145,7 +145,7 @@ def _check_rest(
     k = int(np.argmin(np.abs(found - s)))
     left = np.linalg.svd((jac - found[k] * np.eye(len(x))).conj().T)[2][-1].conj()
     q = right[:, k].real if np.abs(right[:, k].real).max() > 1e-3 else right[:, k].imag
-    q = amplitude * q / np.abs(q / field.state_scale).max()
+    q = amplitude * q / np.abs(q / field.typical).max()
     times = np.linspace(0.0, _E_FOLDS / abs(s.real), _SAMPLES + 1)
     n = len(x)
 
@@ -153,7 +153,7 @@ def _check_rest(
         return np.concatenate([field.residual(y[:n], values), field.residual(y[n:], values)])
 
     with np.errstate(all="ignore"):
-        atol = _RTOL * amplitude * np.tile(field.state_scale, 2)
+        atol = _RTOL * amplitude * np.tile(field.typical, 2)
         run = follow(both, np.concatenate([x + q, x - q]), times, _RTOL, atol, max_steps, stiff=False)
         if run.ended == "interrupted":
             raise KeyboardInterrupt

@@ -45,7 +45,7 @@ class _Motion:
         return self.field.rate(u, self.at(t), t)
 
     def followed(self, rtol: float) -> Followed:
-        scale, rest = self.field.state_scale, self.rest
+        scale, rest = self.field.typical, self.rest
 
         def calm(t: float, u: Array) -> bool:
             return rest is not None and float(np.abs(self.rate(t, u) / scale).max()) < rest
@@ -91,7 +91,7 @@ def simulate_field(
     while tol is not None and run.ended in ("done", "at rest") and rtol > _FINEST:
         rtol *= _FINER
         finer = motion.followed(rtol)
-        error, run = _change(run, finer, field.state_scale), finer
+        error, run = _change(run, finer, field.typical), finer
         if error <= tol:
             break
     return _history(motion, run, rtol, tol, error)

@@ -28,7 +28,7 @@ class FieldFlow(ModelFlow):
     def __init__(self, field: VectorField, forcing: Forcing | None = None, periods: int = 1) -> None:
         self.field = self.model = field
         self.forcing, self._periods = forcing, periods
-        self.c, self.scale = field.n, field.state_scale
+        self.c, self.scale = field.n, field.typical
         self.forced = field.period is not None or forcing is not None
 
     def turns(self, state: Array, values: Values) -> Array:

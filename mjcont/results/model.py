@@ -23,7 +23,7 @@ _ENGINE = frozenset(
     derivative_along difference_each failure first_order follows_scale held holding
     holds_straight linearize_along measure_along nonsmooth one_pattern own_jacobian parameter_stencil passive pencils
     periods pieces rates_together rescaled residuals residuals_along retract_each rigid_directions rigid_modes
-    second_order side_by_side timed together variants vectorized writer
+    second_order side_by_side timed together typical variants vectorized writer
     """.split()
 )
 
@@ -46,7 +46,7 @@ class Model(Equations):
     mjcf : its MJCF text, which results carry, or None.
     declared : parameters declared in Python, as results store them.
     constrained : whether springs stand for constraints, of which results carry notes.
-    follows_scale : whether its `state_scale` was not given, so that curves tell it (see `rescaled`).
+    follows_scale : whether its `typical` sizes were not given, so that curves tell it (see `rescaled`).
     """
 
     name: str

@@ -45,6 +45,7 @@ class Point(Shown):
     n_unstable : number of eigenvalues with positive real part; at a special point, beside those held on the axis.
     problem : the Mechanism or VectorField.
     units : mapping of name to unit, for parameters and observables.
+    doubt : what is not known of its stability, a sentence; empty where all is known.
     """
 
     parameters: Mapping[str, float]
@@ -55,6 +56,7 @@ class Point(Shown):
     n_unstable: int
     problem: Model | None = field(repr=False)
     units: Mapping[str, str] = field(repr=False, default_factory=dict)
+    doubt: str = ""
 
     def __getitem__(self, name: str) -> float:
         """Return a parameter's or observable's value."""
@@ -73,7 +75,7 @@ class Point(Shown):
     def __str__(self) -> str:
         """Return stability and observables."""
         shown = ", ".join(f"{k} = {show(v, self.units.get(k, ''))}" for k, v in self.observables.items())
-        return f"{self.stability} ({self.n_unstable} unstable): {shown}"
+        return f"{self.stability} ({self.n_unstable} unstable): {shown}" + (f" ({self.doubt})" if self.doubt else "")
 
 
 @dataclass(frozen=True, slots=True, repr=False)

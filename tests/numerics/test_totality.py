@@ -8,7 +8,7 @@ import pkgutil
 
 import numpy as np
 import pytest
-from problems import failing, failing_orbits, failing_variants
+from problems import failing, failing_orbits, failing_sparse, failing_variants
 from problems.failing import BAD, CASES, Bad, walk
 
 import mjcont as mc
@@ -32,7 +32,7 @@ def public_names():
 
 
 def test_every_public_routine_of_the_numerics_is_made_to_fail():
-    rooms = failing, failing_orbits, failing_variants
+    rooms = failing, failing_orbits, failing_sparse, failing_variants
     assert set(public_names()) == {name for room in rooms for name in (*room.CASES, *room.PLAIN)}
 
 
@@ -48,6 +48,13 @@ def test_a_routine_for_orbits_returns_where_it_can_compute_nothing(name):
     with np.errstate(all="ignore"):
         for bad in failing_orbits.BAD:
             failing_orbits.CASES[name](bad)
+
+
+@pytest.mark.parametrize("name", failing_sparse.CASES)
+def test_a_routine_for_sparse_matrices_returns_where_it_can_compute_nothing(name):
+    with np.errstate(all="ignore"):
+        for bad in failing_sparse.BAD:
+            failing_sparse.CASES[name](bad)
 
 
 @pytest.mark.parametrize("name", failing_variants.CASES)

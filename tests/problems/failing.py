@@ -228,13 +228,10 @@ CASES = {
     "creep.rates": lambda b: creep.rates(b.local),
     "creep.creep": lambda b: creep.creep(b.problem, b.x, b.values, most=20),
     "defining.parameter_slope": lambda b: defining.parameter_slope(lambda at: float(at.f[0]), b.local, "p"),
-    "defining.dense_pencil": lambda b: defining.dense_pencil(b.local),
+    "defining.pencil_of": lambda b: defining.pencil_of(b.local),
     "defining.Fold": lambda b: (b.condition(b.fold), b.fold().gradient(b.local, b.system, b.y)),
     "defining.BranchPoint": lambda b: b.condition(lambda: defining.BranchPoint(b.local, b.free), 1),
     "defining.Hopf": lambda b: b.condition(lambda: defining.Hopf(b.local, 0.0), 1),
-    "defining.FoldCoefficient": lambda b: b.condition(lambda: defining.FoldCoefficient(b.fold(), b.local)),
-    "defining.DoubleZero": lambda b: b.condition(lambda: defining.DoubleZero(b.fold(), b.local)),
-    "defining.Transversality": lambda b: b.condition(lambda: defining.Transversality(b.fold(), b.local)),
     "deflation.newton": lambda b: deflation.newton(b.many(), np.zeros((3, b.n))),
     "deflation.Deflation": lambda b: deflation.newton(
         b.many(), np.zeros((3, b.n)), deflation.Deflation(lambda x: x[:, None] - b.x, np.full(b.n, math.inf))

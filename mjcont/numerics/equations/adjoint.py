@@ -24,7 +24,7 @@ import numpy as np
 
 from mjcont.errors import MjcontError
 from mjcont.numerics.equations.bordered import Factored, border
-from mjcont.numerics.equations.defining import Fold, FoldCoefficient
+from mjcont.numerics.equations.defining import Fold
 from mjcont.numerics.equations.differences import (
     FIRST,
     NODES,
@@ -35,6 +35,7 @@ from mjcont.numerics.equations.differences import (
     length_of,
     second_form,
 )
+from mjcont.numerics.equations.onfolds import FoldCoefficient
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.system import Condition, Local, System
 

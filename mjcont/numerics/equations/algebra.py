@@ -109,7 +109,7 @@ def _each(function: Callable[[Array], Array], matrices: Array, like: Array) -> A
 def _stacked(function: Callable[[Array], Any], matrix: Array) -> Array:
     """Return eigenvalues of a matrix or a stack, NaN for those that have none."""
     if matrix.ndim == 2:
-        return _defined(function, matrix, like=matrix[0])
+        return _defined(function, matrix, like=matrix.diagonal())
     return _each(function, matrix, like=matrix[:, 0])
 
 

@@ -127,6 +127,19 @@ def oriented(v: Array) -> Array:
     return v * (np.conj(first) / abs(first)) if first else v
 
 
+def null_pair(matrix: Any) -> tuple[Array, Array]:
+    """Return unit vectors v, w with A v and w' A nearly zero, by inverse iteration from a fixed start."""
+    factored = Factored(matrix)
+    v = np.cos(1.0 + np.arange(matrix.shape[0], dtype=float)).astype(matrix.dtype)
+    w = v
+    for _ in range(3):
+        w = factored.solve_transposed(np.conj(v))
+        w = w / np.linalg.norm(w)
+        v = factored.solve(np.conj(w))
+        v = v / np.linalg.norm(v)
+    return v, w
+
+
 def null_vectors(matrix: Any, count: int = 1) -> tuple[Array, Array]:
     """Return the right (n, count) and left (m, count) singular vectors of the smallest singular values.
 

@@ -31,6 +31,14 @@ def scaled(matrix: Any, rows: Array | None = None, columns: Array | None = None)
     return _like(given, data)
 
 
+def weighted(matrix: Any, rows: Array | None = None, columns: Array | None = None) -> Any:
+    """Return `scaled` of a sparse matrix, and the same of a dense one."""
+    if not isinstance(matrix, np.ndarray):
+        return scaled(matrix, rows, columns)
+    found = matrix if rows is None else rows[:, None] * matrix
+    return found if columns is None else found * columns
+
+
 def bordered(matrix: Any, columns: Array, rows: Array, corner: Array) -> Any:
     """Return [[A, B], [C, D]] for sparse A (m, n) and dense B (m, k), C (l, n), D (l, k)."""
     given = matrix.tocsc()

@@ -5,9 +5,8 @@ With J = df/dx in scaled unknowns, rows equilibrated, and borders b, c near its 
     fold            [J b; c' 0] [v; g] = [0; 1],                         g = 0
     Hopf            [P(s) b; c' 0] [q; g] = [0; 1] over R[s]/(s^2 + k),  g = g0 + s g1 = 0
     branch point    [J f_p b; C' 0] [V; g1 g2] = [0; I],                 g1 = g2 = 0, with f + a d = 0
-    cusp            fold and w . B(v, v) = 0
-    Bogdanov-Takens fold and w . C v = 0  (w . v for a first-order system)
-    generalised Hopf, zero-Hopf, Hopf-Hopf: the conditions together
+
+What may hold on a fold besides is in `onfolds`. Generalised Hopf, zero-Hopf, Hopf-Hopf: the conditions together.
 
 The Hopf condition is analytic in k = omega^2 and so passes k = 0; for k < 0 it describes neutral saddles. Source:
 Govaerts, Numerical Methods for Bifurcations of Dynamical Equilibria (SIAM 2000), chapters 3, 4 and 6, written here
@@ -23,14 +22,10 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.equations.algebra import singular
+from mjcont.numerics.equations.bends import REACH, bend, bends_itself, reach_of
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, row_scale
-from mjcont.numerics.equations.differences import (
-    bilinear_gradient,
-    directional,
-    product,
-    product_slopes,
-    second_form,
-)
+from mjcont.numerics.equations.columns import weighted
+from mjcont.numerics.equations.differences import bilinear_gradient, directional, product, product_slopes
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import ROW_GUARD, Condition, Local, System, equation_scale
@@ -52,10 +47,8 @@ class Fold(Condition):
         self.b, self.c = w[:, 0], v[:, 0]
         self._cache: tuple[Local, Array, Array, float] | None = None
 
-    def _scaled(self, local: Local) -> Array:
-        dense = not sparse.issparse(local.jac)
-        found: Array = self.rows[:, None] * local.jac if dense else sparse.diags(self.rows) @ local.jac
-        return found
+    def _scaled(self, local: Local) -> Any:
+        return weighted(local.jac, self.rows)
 
     def vectors(self, local: Local) -> tuple[Array, Array, float]:
         """Return (v, w, g) in equilibrated scaled unknowns."""
@@ -83,6 +76,8 @@ class Fold(Condition):
     def gradient(self, local: Local, system: System, y: Array) -> Array:
         """Return dg = -w' dJ v over (x, free parameters), (1, n + number free)."""
         v, w = self.physical(local)
+        if bends_itself(local):
+            return -bend(local, system, y, w, self.vectors(local)[0])[None]
         out = np.empty(system.n + len(system.free))
         out[: system.n] = -bilinear_gradient(local.problem, local.x, local.values, w, v)
         for i, p in enumerate(system.free):
@@ -160,7 +155,7 @@ class BranchPoint(Condition):
         self.direction = self.b / self.rows
 
     def _square(self, local: Local) -> Any:
-        return sparse.diags(self.rows) @ local.jac if sparse.issparse(local.jac) else self.rows[:, None] * local.jac
+        return weighted(local.jac, self.rows)
 
     def _wide(self, local: Local) -> Any:
         slope = self.parameter.slope(self.parameter.coordinate(local.values[self.parameter.name]))
@@ -190,9 +185,15 @@ class BranchPoint(Condition):
 
         None where differences of the matrices themselves are to be taken, or a product would leave the bounds.
         """
-        if local.problem.second_order or local.problem.own_jacobian or sparse.issparse(local.jac):
+        itself = bends_itself(local)
+        if local.problem.second_order or (local.problem.own_jacobian and not itself):
             return None
         right, left, _ = self._solve(local)
+        if itself:
+            reach = REACH * max(abs(v[-1]) / reach_of(local, v) for v in right.T)
+            if not system.lowest[0] + reach <= y[0] <= system.highest[0] - reach:
+                return None
+            return np.array([-bend(local, system, y, left * self.rows, v) for v in right.T])
         bends = [_bend(system, local, y, v) for v in right.T]
         found = [-bend @ (left * self.rows) for bend in bends if bend is not None]
         return np.array(found) if len(found) == len(bends) else None
@@ -237,29 +238,30 @@ class Hopf(Condition):
 
     def _time_scale(self, local: Local, square: float) -> float:
         """Return omega, or where that vanishes a tenth of the rate at which the system moves."""
-        mass, damping, stiffness = (float(np.abs(m).max()) for m in dense_pencil(local))
+        mass, damping, stiffness = (float(abs(m).max()) for m in pencil_of(local))
         typical = np.sqrt(stiffness / mass) if mass > 0 else stiffness / max(damping, _SLOWEST)
         return max(float(np.hypot(np.sqrt(abs(square)), _SLOW_TIME * min(typical, self.rate))), _SLOWEST)
 
     def _row_scale(self, local: Local) -> Array:
         mass, damping, stiffness = self._unscaled(local)
-        return row_scale(np.abs(stiffness) + np.abs(damping) + np.abs(mass), ROW_GUARD)
+        return row_scale(abs(stiffness) + abs(damping) + abs(mass), ROW_GUARD)
 
-    def _unscaled(self, local: Local) -> tuple[Array, Array, Array]:
+    def _unscaled(self, local: Local) -> tuple[Any, Any, Any]:
         scale = local.problem.state_scale
-        mass, damping, stiffness = dense_pencil(local)
-        return self.inner * self.inner * mass * scale, self.inner * damping * scale, stiffness * scale
+        mass, damping, stiffness = pencil_of(local)
+        factors = (self.inner * self.inner * scale, self.inner * scale, scale)
+        return tuple(weighted(m, columns=f) for m, f in zip((mass, damping, stiffness), factors, strict=True))
 
-    def _block(self, local: Local, k: float) -> Array:
-        mass, damping, stiffness = (self.rows[:, None] * a for a in self._unscaled(local))
+    def _block(self, local: Local, k: float) -> Any:
+        mass, damping, stiffness = (weighted(a, self.rows) for a in self._unscaled(local))
         even, odd = stiffness - k * mass, damping
-        return np.block([[even, -k * odd], [odd, even]])
+        blocks = [[even, -k * odd], [odd, even]]
+        return sparse.bmat(blocks, format="csc") if sparse.issparse(even) else np.block(blocks)
 
-    def _bordered(self, local: Local, k: float) -> Array:
+    def _bordered(self, local: Local, k: float) -> Any:
         columns = np.column_stack([np.append(self.b0, self.b1), np.append(-k * self.b1, self.b0)])
         rows = np.array([np.append(self.c0, -k * self.c1), np.append(self.c1, self.c0)])
-        found: Array = border(self._block(local, k), columns, rows)
-        return found
+        return border(self._block(local, k), columns, rows)
 
     def value(self, local: Local, aux: Array) -> Array:
         """Return (g0, g1)."""
@@ -273,30 +275,42 @@ class Hopf(Condition):
     def gradient(self, local: Local, system: System, y: Array) -> Array | None:
         """Return dg = -p' dA q over x, parameters and the auxiliary unknown, (2, n + k), by products of J with q alone.
 
-        None where differences of the matrices themselves are to be taken: with a mass matrix, and where J is given.
+        None where differences of the matrices themselves are to be taken: with a mass matrix.
         """
         problem, n = local.problem, system.n
-        if problem.second_order or problem.own_jacobian:
+        if problem.second_order:
             return None
         at = system.place(self)
         k = self.square(y[at : at + 1]) / self.inner / self.inner
         factored = Factored(self._bordered(local, k))
         ends = np.eye(2 * n + 2)[-2:]
         right, left = factored.solve(ends[0]), np.array([factored.solve_transposed(e) for e in ends])
-        q = right[: 2 * n].reshape(2, n) * problem.state_scale
+        q = right[: 2 * n].reshape(2, n)
         p = left[:, : 2 * n].reshape(2, 2, n) * self.rows
         out = np.zeros((2, n + system.k))
+        if bends_itself(local):
+            out[:, : n + len(system.free)] = sum(bend(local, system, y, p[:, j], q[j]) for j in range(2))
+        else:
+            out[:, : n + len(system.free)] = self._by_products(local, system, y, p, q * problem.state_scale)
+        ahead = self._bordered(local, k + 0.5) - self._bordered(local, k - 0.5)  # it is linear in k
+        rate = (self.rate / self.inner) ** 2 * float(np.cosh(y[at]))
+        out[:, n + at] = -left @ ahead @ right * rate
+        return out
+
+    @staticmethod
+    def _by_products(local: Local, system: System, y: Array, p: Array, q: Array) -> Array:
+        """Return p' dJ q over (x, free parameters) by differences of f."""
+        problem, n = local.problem, system.n
+        out = np.zeros((2, n + len(system.free)))
         for j in range(2):
             out[:, :n] += p[:, j] @ product_slopes(problem, local.x, local.values, q[j]).T
+
         def products(beside: Local) -> Array:
             return np.array([product(problem, beside.x, beside.values, v) for v in q])
 
         for i, free in enumerate(system.free):
             moved = parameter_slope(products, local, free.name) * free.slope(float(y[i]))
             out[:, n + i] = np.einsum("ijk,jk->i", p, moved)
-        ahead = self._bordered(local, k + 0.5) - self._bordered(local, k - 0.5)  # it is linear in k
-        rate = (self.rate / self.inner) ** 2 * float(np.cosh(y[at]))
-        out[:, n + at] = -left @ ahead @ right * rate
         return out
 
     def square(self, aux: Array) -> float:
@@ -327,65 +341,13 @@ def _generator(even: Array, odd: Array, k: float) -> Array:
     return np.asarray(middle / np.linalg.norm(middle))
 
 
-def dense_pencil(local: Local) -> tuple[Array, Array, Array]:
-    """Return (M, C, K) as dense arrays, with zeros and the identity for a first-order system."""
+def pencil_of(local: Local) -> tuple[Any, Any, Any]:
+    """Return (M, C, K), with zeros and the identity for a first-order system; sparse where K is."""
     pencil, n = local.pencil, local.problem.n
-    stiffness = pencil.stiffness.toarray() if sparse.issparse(pencil.stiffness) else pencil.stiffness
-    mass = np.zeros((n, n)) if pencil.mass is None else pencil.mass
-    damping = np.eye(n) if pencil.damping is None else pencil.damping
-    return mass, damping, stiffness
-
-
-class FoldCoefficient(Condition):
-    """Cusp: w . B(v, v) / 2 = 0 for the null vectors of a `Fold` of the same system."""
-
-    def __init__(self, fold: Fold, local: Local) -> None:
-        self.fold = fold
-        v, w, _ = fold.vectors(local)
-        self.weight = float(np.linalg.norm(v) ** 2 * np.linalg.norm(w))
-
-    def value(self, local: Local, aux: Array) -> Array:
-        """Return the coefficient with the borders' normalisation."""
-        v, w = self.fold.physical(local)
-        return np.array([0.5 * w @ second_form(local.problem, local.x, local.values, v, v)]) / self.weight
-
-    def gradient(self, local: Local, system: System, y: Array) -> Array:
-        """Return the gradient over (x, free parameters), (1, n + number free).
-
-        Centred differences are wrong by about k step^2 with stiff bushes, which cancels only in part along the null
-        vector v, where the coefficient itself changes little; along v they are replaced by a fourth-order difference.
-        """
-        v = self.fold.vectors(local)[0]
-        gradient = system.gradients([self], local, y)[:, : system.n + len(system.free)]
-        ahead = np.append(v, np.zeros(system.k))
-        off = system.slope(self, local, y, ahead) - gradient[:, : system.n] @ v
-        gradient[:, : system.n] += off[:, None] * v / (v @ v)
-        return gradient
-
-
-class DoubleZero(Condition):
-    """Bogdanov-Takens: w . C v = 0 on a fold (C = I for a first-order system)."""
-
-    def __init__(self, fold: Fold, local: Local) -> None:
-        self.fold = fold
-        v, w = fold.physical(local)
-        damping = dense_pencil(local)[1]
-        self.weight = float(np.abs(w) @ np.abs(damping) @ np.abs(v)) or 1.0
-
-    def value(self, local: Local, aux: Array) -> Array:
-        """Return w . C v."""
-        v, w = self.fold.physical(local)
-        return np.array([w @ dense_pencil(local)[1] @ v]) / self.weight
-
-class Transversality(Condition):
-    """w . f_p = 0 on a fold locus, p its first parameter: the locus turns in the second without a cusp."""
-
-    def __init__(self, fold: Fold, local: Local) -> None:
-        self.fold = fold
-        _, w = fold.physical(local)
-        self.weight = float(np.abs(w) @ np.abs(local.par[:, 0])) or 1.0
-
-    def value(self, local: Local, aux: Array) -> Array:
-        """Return w . f_p."""
-        _, w = self.fold.physical(local)
-        return np.array([w @ local.par[:, 0]]) / self.weight
+    thin = sparse.issparse(pencil.stiffness)
+    mass, damping = pencil.mass, pencil.damping
+    if mass is None:
+        mass = sparse.csc_matrix((n, n)) if thin else np.zeros((n, n))
+    if damping is None:
+        damping = sparse.identity(n, format="csc") if thin else np.eye(n)
+    return mass, damping, pencil.stiffness

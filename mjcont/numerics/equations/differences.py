@@ -105,7 +105,7 @@ def directional(problem: Equations, x: Array, values: Values, v: Array, order: i
     own = problem.derivative_along(x, values, *(v,) * order)
     if own is not None:
         return own
-    h, smallest = step / length_of(v, problem.state_scale), _SMALLEST * step / length_of(v, problem.state_scale)
+    h, smallest = step / length_of(v, problem.typical), _SMALLEST * step / length_of(v, problem.typical)
     while True:
         found = combine(lambda rows: problem.residuals(x, values, rows), v, order, h)
         if h <= smallest or len(set(problem.pieces)) <= 1:
@@ -175,7 +175,7 @@ def second_form(problem: Equations, x: Array, values: Values, u: Array, v: Array
         return own
     if np.array_equal(u, v):
         return directional(problem, x, values, u, 2, step)
-    scale = problem.state_scale
+    scale = problem.typical
     a, b = u / length_of(u, scale), v / length_of(v, scale)
     plus = directional(problem, x, values, a + b, 2, step)
     minus = directional(problem, x, values, a - b, 2, step)
@@ -191,7 +191,7 @@ def bilinear_gradient(
     w . B(v, v): a null vector v is the direction in which a curve of folds or a Newton step to a fold moves. Columns
     whose points straddle a kink of f are one-sided, to first order.
     """
-    n, scale = problem.n, problem.state_scale
+    n, scale = problem.n, problem.typical
     length = length_of(v, scale)
     dv = (step / length) * v
     f = problem.residuals(x, values, _mixed_steps(dv, scale, step)) @ w
@@ -214,8 +214,8 @@ def _mixed_steps(dv: Array, scale: Array, step: float) -> Array:
 
 def product_slopes(problem: Equations, x: Array, values: Values, v: Array, step: float = 3e-4) -> Array:
     """Return the derivatives of (df/dx) v in each scaled coordinate, (n, n_f), where f is smooth: 4 n evaluations."""
-    length = length_of(v, problem.state_scale)
-    rows = problem.residuals(x, values, _mixed_steps((step / length) * v, problem.state_scale, step))
+    length = length_of(v, problem.typical)
+    rows = problem.residuals(x, values, _mixed_steps((step / length) * v, problem.typical, step))
     pp, pm, mp, mm = rows.reshape(4, problem.n, -1)
     found: Array = (pp - pm - mp + mm) / (4.0 * step * (step / length))
     return found
@@ -223,7 +223,7 @@ def product_slopes(problem: Equations, x: Array, values: Values, v: Array, step:
 
 def product(problem: Equations, x: Array, values: Values, v: Array, step: float = 3e-4) -> Array:
     """Return (df/dx) v to second order, (n_f,): two evaluations."""
-    h = step / length_of(v, problem.state_scale)
+    h = step / length_of(v, problem.typical)
     ahead, back = problem.residuals(x, values, h * np.array([v, -v]))
     found: Array = (ahead - back) / (2.0 * h)
     return found

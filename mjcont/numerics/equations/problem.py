@@ -136,7 +136,7 @@ class Equations(ABC):
     ----------
     n : tangent dimension of the state.
     second_order : whether the pencil has a mass matrix.
-    state_scale : (n,) typical size of each tangent coordinate, for arclength and difference steps.
+    state_scale : (n,) unit of each tangent coordinate in arclength: its typical size, or more where there are many.
     """
 
     n: int
@@ -187,6 +187,11 @@ class Equations(ABC):
     @abstractmethod
     def first_order(self, x: Array, values: Values, steps: Array) -> Array:
         """Return the right-hand side of the first-order form at steps (m, N) of its state, shape (m, N)."""
+
+    @property
+    def typical(self) -> Array:
+        """Typical size of each tangent coordinate, (n,), for difference steps."""
+        return self.state_scale
 
     # -- the manifold: flat unless it says otherwise -----------------------------------------------------------
 

@@ -74,6 +74,10 @@ class Local:
         """Take the derivatives computed elsewhere."""
         self._lin = linearization
 
+    def forget(self) -> None:
+        """Let matrices go: they are computed again where somebody asks for them."""
+        self._residual, self._lin, self._jac, self._pencil = self.f, None, None, None
+
     def _linearize(self) -> Linearization:
         if self._lin is None:
             self._lin = self.problem.linearize(

@@ -21,7 +21,8 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from mjcont.numerics.equations.bordered import Factored, border, row_scale
+from mjcont.numerics.equations import bends
+from mjcont.numerics.equations.bordered import Factored, border, null_pair, row_scale
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import Condition, Local, System
@@ -43,32 +44,10 @@ def orbits_of(local: Local) -> Orbits:
 
 def bend(local: Local, system: System, y: Array, w: Array, along: Array) -> Array:
     """Return d/de of w' [J f_p] at the orbit moved by e along a scaled direction (n + number free,)."""
-    n, count = system.n, len(system.free)
+    n = system.n
     largest = float(np.abs(along[:n] * system.problem.state_scale / _sizes(orbits_of(local))).max())
     e = _MOVED / max(largest, float(np.abs(along[n:]).max(initial=0.0)), 1e-300)
-    sides = []
-    for sign in (1.0, -1.0):
-        step = np.zeros(n + system.k)
-        step[: n + count] = sign * e * along
-        x, moved = system.move(local.x, y, step)
-        at = system.problem.linearize(x, system.values(moved), system.names, ranges=system.ranges)
-        slopes = np.array([p.slope(u) for p, u in zip(system.free, moved, strict=False)])
-        sides.append(np.concatenate([(at.jac.T @ w) * system.problem.state_scale, (w @ at.par) * slopes]))
-    found: Array = (sides[0] - sides[1]) / (2.0 * e)
-    return found
-
-
-def _null_pair(matrix: Any) -> tuple[Array, Array]:
-    """Return unit vectors v, w with A v and w' A nearly zero, by inverse iteration from a fixed start."""
-    factored = Factored(matrix)
-    v = np.cos(1.0 + np.arange(matrix.shape[0], dtype=float)).astype(matrix.dtype)
-    w = v
-    for _ in range(3):
-        w = factored.solve_transposed(np.conj(v))
-        w = w / np.linalg.norm(w)
-        v = factored.solve(np.conj(w))
-        v = v / np.linalg.norm(v)
-    return v, w
+    return bends.bend(local, system, y, w, along, step=e)
 
 
 def turned(local: Local, mu: complex, periods: bool = False) -> Any:
@@ -92,7 +71,7 @@ class Multiplier(Condition):
     def __init__(self, local: Local, aux: tuple[float, ...] = ()) -> None:
         self.aux = aux
         self.rows = row_scale(self._matrix(local, np.array(aux)))
-        v, w = _null_pair(self._scaled(local, np.array(aux)))
+        v, w = null_pair(self._scaled(local, np.array(aux)))
         self.b, self.c = np.conj(w), np.conj(v)
         self._cache: tuple[Local, bytes, Array, Array, Any] | None = None
 
@@ -269,7 +248,7 @@ class CycleBranch(Condition):
         last = np.zeros((1, n + 1))
         last[0, -1] = 1.0
         square = sparse.vstack([wide, sparse.csc_matrix(last)], format="csc")
-        kernel, left = _null_pair(square)
+        kernel, left = null_pair(square)
         w = left[:n] / np.linalg.norm(left[:n])
         rows = np.vstack([kernel, last])
         lu = Factored(border(wide, w[:, None], rows))

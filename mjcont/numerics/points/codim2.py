@@ -15,9 +15,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mjcont.numerics.equations.algebra import singular, solve
+from mjcont.numerics.equations.bordered import null_vectors
 from mjcont.numerics.equations.problem import Array, Equations, Values
-from mjcont.numerics.points.normalform import FirstOrder, eigenvectors
+from mjcont.numerics.points.normalform import FirstOrder, eigenvectors, shifted, solved
 
 # a coefficient counts as zero below this part of the frequency, for amplitudes of the state's scale
 _VANISHES = 1e-9
@@ -31,8 +31,7 @@ def zero_hopf_coefficients(problem: Equations, x: Array, values: Values, omega: 
     """
     form = FirstOrder(problem, x, values)
     jac = form.jacobian()
-    u, _, vt = singular(jac)
-    q0, p0 = vt[-1], u[:, -1]
+    q0, p0 = (v[:, 0] for v in null_vectors(jac))
     p0 = p0 / (p0 @ q0)
     q1, p1 = eigenvectors(jac, omega)
     g200 = float(p0 @ form.second(q0, q0))
@@ -58,15 +57,16 @@ def double_hopf_coefficients(
     """
     form = FirstOrder(problem, x, values)
     jac = form.jacobian()
-    identity = np.eye(len(jac))
     q1, p1 = eigenvectors(jac, omega1)
     q2, p2 = eigenvectors(jac, omega2)
     b = form.second
-    h1100, h0011 = -solve(jac, b(q1, q1.conj())), -solve(jac, b(q2, q2.conj()))
-    h2000 = solve(2j * omega1 * identity - jac, b(q1, q1))
-    h0020 = solve(2j * omega2 * identity - jac, b(q2, q2))
-    h1010 = solve(1j * (omega1 + omega2) * identity - jac, b(q1, q2))
-    h1001 = solve(1j * (omega1 - omega2) * identity - jac, b(q1, q2.conj()))
+    h1100, h0011, h2000, h0020, h1010, h1001 = (
+        -solved(shifted(jac, 1j * rate), b(u, v))
+        for rate, u, v in (
+            (0.0, q1, q1.conj()), (0.0, q2, q2.conj()), (2.0 * omega1, q1, q1), (2.0 * omega2, q2, q2),
+            (omega1 + omega2, q1, q2), (omega1 - omega2, q1, q2.conj()),
+        )
+    )
     own1 = form.trilinear(q1, q1, q1.conj()) + b(q1.conj(), h2000) + 2.0 * b(q1, h1100)
     own2 = form.trilinear(q2, q2, q2.conj()) + b(q2.conj(), h0020) + 2.0 * b(q2, h0011)
     cross1 = form.trilinear(q1, q2, q2.conj()) + b(q2.conj(), h1010) + b(q2, h1001) + b(q1, h0011)

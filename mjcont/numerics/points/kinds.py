@@ -65,14 +65,16 @@ def _branch_point(local: Local, system: System, square: float) -> Sequence[Condi
 
 
 def _cusp(local: Local, system: System, square: float) -> Sequence[Condition]:
-    from mjcont.numerics.equations.defining import Fold, FoldCoefficient
+    from mjcont.numerics.equations.defining import Fold
+    from mjcont.numerics.equations.onfolds import FoldCoefficient
 
     fold = Fold(local)
     return [fold, FoldCoefficient(fold, local)]
 
 
 def _double_zero(local: Local, system: System, square: float) -> Sequence[Condition]:
-    from mjcont.numerics.equations.defining import DoubleZero, Fold
+    from mjcont.numerics.equations.defining import Fold
+    from mjcont.numerics.equations.onfolds import DoubleZero
 
     fold = Fold(local)
     return [fold, DoubleZero(fold, local)]

@@ -20,7 +20,7 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.equations.algebra import least_squares, singular, solve
-from mjcont.numerics.equations.bordered import oriented
+from mjcont.numerics.equations.bordered import Factored, border, null_pair, null_vectors, oriented
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
     directional,
@@ -56,16 +56,26 @@ def cusp_coefficient(local: Local, v: Array, w: Array) -> float:
     v = v / np.linalg.norm(v)
     w = w / (w @ v)
     b = second_form(problem, x, values, v, v)
-    h = _bordered_solve(local.raw_jac, w, v, b - (w @ b) * v if not problem.second_order else b)
+    h = bordered_solve(local.raw_jac, w, v, b - (w @ b) * v if not problem.second_order else b)
     third = directional(problem, x, values, v, 3, 2e-2)
     return float(w @ (third - 3.0 * second_form(problem, x, values, v, h)) / 6.0)
 
 
-def _bordered_solve(jac: Any, w: Array, v: Array, rhs: Array) -> Array:
-    """Return h with J h = rhs up to the left null direction and v . h = 0."""
-    matrix = jac.toarray() if sparse.issparse(jac) else jac
-    full = np.block([[matrix, w[:, None]], [v[None], np.zeros((1, 1))]])
-    return least_squares(full, np.append(rhs, 0.0))[:-1]
+def bordered_solve(jac: Any, w: Array, v: Array, rhs: Array) -> Array:
+    """Return h with J h = rhs up to the left null direction w and v . h = 0, J dense or sparse."""
+    full, padded = border(jac, w[:, None], v[None]), np.append(rhs, 0.0)
+    return (Factored(full).solve(padded) if sparse.issparse(full) else least_squares(full, padded))[:-1]
+
+
+def solved(matrix: Any, rhs: Array) -> Array:
+    """Return the solution of a linear system, dense or sparse; no numbers where a dense matrix is singular."""
+    return Factored(matrix).solve(rhs) if sparse.issparse(matrix) else solve(matrix, rhs)
+
+
+def shifted(jac: Any, s: complex) -> Any:
+    """Return J - s, dense or sparse as J is."""
+    n = jac.shape[0]
+    return sparse.csc_matrix(jac - s * sparse.identity(n)) if sparse.issparse(jac) else jac - s * np.eye(n)
 
 
 class FirstOrder:
@@ -82,12 +92,15 @@ class FirstOrder:
     def __init__(self, problem: Equations, x: Array, values: Values, *, shorter: float = 1.0) -> None:
         self._f = partial(problem.first_order, x, values)
         self._problem, self._x, self._values, self._shorter = problem, x, values, shorter
-        scale = problem.state_scale
+        self._by_jacobian = problem.own_jacobian and not problem.second_order
+        scale = problem.typical
         self.scale = np.concatenate([scale, scale]) if problem.second_order else scale
         self.error = 0.0
 
-    def jacobian(self) -> Array:
-        """Return the Jacobian of the first-order form."""
+    def jacobian(self) -> Any:
+        """Return the Jacobian of the first-order form, sparse where the problem gives it so."""
+        if self._by_jacobian:
+            return self._problem.linearize(self._x, self._values, ()).jac
         rows = self._f(jacobian_steps(self.scale, FOURTH_ORDER))
         return jacobian_from_rows(rows, self.scale, FOURTH_ORDER)
 
@@ -99,9 +112,9 @@ class FirstOrder:
         length = self.size(v)
         if length == 0.0:
             return np.zeros(len(v))
-        own = self._problem.own_jacobian and not self._problem.second_order
-        function = partial(self._slopes, v / length) if own else self._f
-        found, error = settled_combine(function, v / length, order - own, self._shorter * {2: 1e-2, 3: 2e-2}[order])
+        function = partial(self._slopes, v / length) if self._by_jacobian else self._f
+        step = self._shorter * {2: 1e-2, 3: 2e-2}[order]
+        found, error = settled_combine(function, v / length, order - self._by_jacobian, step)
         self.error = max(self.error, error)
         return found * np.float64(length) ** order
 
@@ -201,19 +214,23 @@ def _lyapunov(form: FirstOrder, problem: Equations, omega: float) -> Lyapunov:
     c = form.third(qr, qr) + 1j * form.third(qi, qi)
     c += form.third(qi, qr) + 1j * form.third(qr, qi)
     b = form.second(q, q.conj()).real
-    identity = np.eye(len(jac))
-    h11 = solve(jac, b)
-    h20 = solve(2j * omega * identity - jac, form.second(q, q))
+    h11 = solved(jac, b)
+    h20 = -solved(shifted(jac, 2j * omega), form.second(q, q))
     terms = np.array([c, -2.0 * form.second(q, h11), form.second(q.conj(), h20)])
     found = float(np.real(np.vdot(p, terms.sum(axis=0))) / (2.0 * omega))
     size = np.abs(p) @ np.abs(terms).sum(axis=0) / (2.0 * np.float64(abs(omega)))
     return Lyapunov(found, float(form.error * size), _DEGENERATE * form.size(q) ** 2)
 
 
-def eigenvectors(jac: Array, omega: float) -> tuple[Array, Array]:
+def eigenvectors(jac: Any, omega: float) -> tuple[Array, Array]:
     """Return q and p with J q = i omega q, J' p = -i omega p, |q| = 1 and <p, q> = 1."""
-    u, _, vh = singular(jac - 1j * omega * np.eye(len(jac)))
-    q, p = vh[-1].conj(), u[:, -1]
+    matrix = shifted(jac, 1j * omega)
+    if sparse.issparse(matrix):
+        q, p = null_pair(matrix)
+        p = p.conj()
+    else:
+        u, _, vh = singular(matrix)
+        q, p = vh[-1].conj(), u[:, -1]
     return q, p / np.vdot(q, p)
 
 
@@ -225,12 +242,11 @@ def double_zero_coefficients(problem: Equations, x: Array, values: Values) -> di
     """
     form = FirstOrder(problem, x, values)
     jac = form.jacobian()
-    u, _, vt = singular(jac)
-    q0, p1 = vt[-1], u[:, -1]
-    full = np.block([[jac, p1[:, None]], [q0[None], np.zeros((1, 1))]])
-    q1 = solve(full, np.append(q0, 0.0))[:-1]
+    q0, p1 = (v[:, 0] for v in null_vectors(jac))
+    full = border(jac, p1[:, None], q0[None])
+    q1 = solved(full, np.append(q0, 0.0))[:-1]
     p1 = p1 / (p1 @ q1)
-    p0 = solve(full.T, np.append(p1, 0.0))[:-1]
+    p0 = solved(full.T, np.append(p1, 0.0))[:-1]
     p0 = p0 - (p0 @ q1) * p1
     b00, b01 = form.second(q0, q0), form.second(q0, q1)
     return {"a": float(0.5 * p1 @ b00), "b": float(p0 @ b00 + p1 @ b01)}
@@ -238,8 +254,7 @@ def double_zero_coefficients(problem: Equations, x: Array, values: Values) -> di
 
 def pitchfork_coefficient(local: Local, w: Array) -> float:
     """Return the cubic coefficient c of x' = b mu x + c x^3: supercritical for c < 0."""
-    jac = local.raw_jac.toarray() if sparse.issparse(local.raw_jac) else local.raw_jac
-    v = singular(jac)[2][-1]
+    v = null_vectors(local.raw_jac)[0][:, 0]
     return cusp_coefficient(local, v, w)
 
 

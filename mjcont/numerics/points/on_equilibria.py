@@ -16,7 +16,7 @@ from mjcont.numerics.equations.newton import Corrected, known_to, solve
 from mjcont.numerics.equations.problem import Array, Values
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
-from mjcont.numerics.equations.system import System
+from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points import normalform
 from mjcont.numerics.points.events import (
     ByOrientation,
@@ -31,6 +31,7 @@ from mjcont.numerics.points.events import (
     within,
     zero_fraction,
 )
+from mjcont.numerics.spectra.large import nearest
 from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum, negative_stiffness, spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint, advance
@@ -49,6 +50,8 @@ _BRACKET = 1e-9
 _JUST_INSIDE = 0.1
 # the zero eigenvalue of a fold is a double one where w . v is this small a part of |w| |v|
 _DOUBLE = 1e-5
+# eigenvalues of a large sparse matrix about a frequency among which a pair on the axis is sought
+_ABOUT = 6
 
 
 def square_system(system: System, conditions: Sequence[Any], at: Corrected) -> tuple[System, Array]:
@@ -180,13 +183,13 @@ class HopfDetector:
 
     def _differs(self, old: CurvePoint, new: CurvePoint) -> bool:
         a, b = spectrum_of(old), spectrum_of(new)
-        return a.pair_count() != b.pair_count() or abs(a.n_unstable - b.n_unstable) > 1
+        return a.pairs_passing(b) > 0 or abs(a.n_unstable - b.n_unstable) > 1
 
     def _settle(self, old: CurvePoint, new: CurvePoint) -> Located | None:
         near = approximate(self.system, old, new, self._fraction(old, new), self.settings)
         if near.failure is not None:
             return None
-        square = critical_square(local_spectrum(near.local))
+        square = _square_between(near.local, spectrum_of(old), spectrum_of(new))
         if square is None:
             return None
         condition = Hopf(near.local, square)
@@ -215,7 +218,7 @@ class HopfDetector:
 
     def locate(self, old: CurvePoint, new: CurvePoint, found: Sequence[Located]) -> Found | Refused:
         """Return the Hopf points between the points; several are separated by bisection."""
-        difference = abs(spectrum_of(old).pair_count() - spectrum_of(new).pair_count())
+        difference = spectrum_of(old).pairs_passing(spectrum_of(new))
         if difference == 0 and new.s - old.s <= _CLOSE:
             return Found()
         if difference != 1 and new.s - old.s > _CLOSE:  # several points here, or a Hopf point and a neutral saddle
@@ -262,6 +265,27 @@ class HopfDetector:
         omega = _frequency(critical_pair(spectrum_of(old)) or (0.0, 0.0))
         data = {"omega": omega, "type": "degenerate"}
         return Located("HB", new, new.s - old.s, False, data, "undamped oscillations meet here: bracketed only")
+
+
+def _square_between(local: Local, one: Spectrum, other: Spectrum) -> float | None:
+    """Return omega^2 of the pair that passes the axis at an evaluation between two points with their spectra.
+
+    Where not all eigenvalues are known the pair is sought where it is unstable, on the axis beside it.
+    """
+    if one.complete and other.complete:
+        return critical_square(local_spectrum(local))
+    told = max(one, other, key=lambda s: s.n_unstable)
+    pairs = told.eigenvalues[(told.eigenvalues.imag > 0) & (told.eigenvalues.real > told.noise)]
+    if not len(pairs):
+        return critical_square(local_spectrum(local))
+    return square_near(local, float(pairs[np.argmin(pairs.real)].imag))
+
+
+def square_near(local: Local, omega: float) -> float | None:
+    """Return omega^2 of the pair of a sparse matrix that is nearest the axis among those about a frequency."""
+    found = nearest(local.raw_jac, 1j * omega, _ABOUT)
+    pairs = found[found.imag > 0]
+    return float(abs(pairs[np.argmin(np.abs(pairs.real))]) ** 2) if len(pairs) else None
 
 
 def _on_axis(s: Spectrum) -> bool:

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from mjcont.numerics.equations.bordered import Factored
-from mjcont.numerics.equations.defining import DoubleZero, Fold, FoldCoefficient, Hopf, Transversality
+from mjcont.numerics.equations.defining import Fold, Hopf
 from mjcont.numerics.equations.newton import Corrected, solve
+from mjcont.numerics.equations.onfolds import DoubleZero, FoldCoefficient, Transversality
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings

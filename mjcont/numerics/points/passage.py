@@ -24,12 +24,12 @@ import numpy as np
 from scipy.integrate import odeint
 from scipy.special import ai_zeros
 
-from mjcont.numerics.equations.algebra import least_squares, root
-from mjcont.numerics.equations.bordered import border
-from mjcont.numerics.equations.defining import dense_pencil
+from mjcont.numerics.equations.algebra import root
+from mjcont.numerics.equations.defining import pencil_of
 from mjcont.numerics.equations.differences import second_form
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import Local
+from mjcont.numerics.points.normalform import bordered_solve
 
 # where motions of the normal form begin, and end; how far their logarithm grows until what is left is nothing
 _BEFORE, _AFTER, _GROWN = 30.0, 10.0, 60.0
@@ -109,15 +109,15 @@ def passage(local: Local, v: Array, w: Array, load: Array) -> Passage | None:
     None where there is none: no load along w, no curvature or no damping and inertia. Inertia that comes out negative,
     where other motions lag rather than swing, counts as none.
     """
-    mass, damping, stiffness = dense_pencil(local)
+    mass, damping, stiffness = pencil_of(local)
     v, w = v / np.linalg.norm(v), w / np.linalg.norm(w)
     slope, resistance = float(w @ load), damping @ v
     along = float(w @ resistance)
     shape = load / slope if slope else np.full(len(v), np.nan)
-    lag = least_squares(border(stiffness, w[:, None], v[None]), np.append(along * shape - resistance, 0.0))[:-1]
+    lag = bordered_solve(stiffness, w, v, along * shape - resistance)
     inertia = float(w @ (mass @ v + damping @ lag))
     # the rest is stable before the fold: damping is positive, or, where there is none, inertia
-    damped = abs(along) > _UNDAMPED * float(np.abs(w) @ np.abs(damping) @ np.abs(v))
+    damped = abs(along) > _UNDAMPED * float(np.abs(w) @ (abs(damping) @ np.abs(v)))
     inertia *= math.copysign(1.0, along if damped else inertia)
     curvature = float(0.5 * w @ second_form(local.problem, local.x, local.values, v, v))
     found = Passage(max(inertia, 0.0), abs(along), abs(slope), abs(curvature))

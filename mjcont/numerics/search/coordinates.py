@@ -71,7 +71,7 @@ class Coordinates:
         for s in self.slots:
             if s.width == 1 and not math.isfinite(s.period):
                 centre[s.column] = 0.5 * (s.low + s.high)
-                reach[s.column] = factor * max(0.5 * (s.high - s.low), self.problem.state_scale[s.tangent])
+                reach[s.column] = factor * max(0.5 * (s.high - s.low), self.problem.typical[s.tangent])
         return centre, reach
 
     def draw(self, cube: Array) -> Array:

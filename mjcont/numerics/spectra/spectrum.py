@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import eigs, splu
 
 from mjcont.numerics.equations.algebra import cholesky, eigenvalues, inverses, singular, solve, symmetric_eigenvalues
 from mjcont.numerics.equations.differences import SECOND_ORDER
 from mjcont.numerics.equations.problem import Array, Pencil
+from mjcont.numerics.spectra.large import NOISE, SMALL, rightmost
 
 STABLE, UNSTABLE, MARGINAL = "stable", "unstable", "marginal"
 _SYMMETRY_NOISE = 1e-8
@@ -27,8 +27,6 @@ _ROUNDING = 1e-13
 _EIGENSOLVER = 1e-15
 # noise of eigenvalues of a first-order system, in parts of the largest entry and of themselves
 _FIRST_ORDER, _RELATIVE = 1e-11, 1e-12
-# eigenvalues nearest the axis that are sought of a sparse matrix, and its size up to which all are
-_NEAREST, _SMALL = 6, 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,12 +35,13 @@ class Spectrum:
 
     Attributes
     ----------
-    eigenvalues : (N,) complex, in 1/s, by falling real part (for large sparse problems those nearest zero).
+    eigenvalues : (N,) complex, in 1/s, by falling real part (for large sparse problems those that decide).
     stability : "stable", "unstable" or "marginal".
     n_unstable : number of eigenvalues with positive real part beyond the noise.
     noise : (N,) how far from the axis each eigenvalue must be to be told from it.
     conservative : whether symmetric K and C exclude Hopf points.
     complete : whether `eigenvalues` has all of them.
+    proven : whether `n_unstable` is known to count all that are unstable, not only those among `eigenvalues`.
     """
 
     eigenvalues: Array
@@ -51,6 +50,7 @@ class Spectrum:
     noise: Array
     conservative: bool
     complete: bool = True
+    proven: bool = True
 
     def pair_count(self) -> int:
         """Return how many pairs of eigenvalues have a positive sum (complex pairs, and pairs of real ones).
@@ -59,6 +59,21 @@ class Spectrum:
         noise are left out: undamped oscillations, and the real pairs into which they turn at a fold.
         """
         return int(pair_counts(self.eigenvalues, self.noise))
+
+    def oscillations(self) -> int:
+        """Return how many complex pairs are unstable."""
+        return int(np.count_nonzero((self.eigenvalues.imag > 0) & (self.eigenvalues.real > self.noise)))
+
+    def pairs_passing(self, other: Spectrum) -> int:
+        """Return how many pairs, at least, pass the axis between two spectra of a curve.
+
+        As `pair_count` tells; where only the unstable ones are known for certain, as many as their number tells: a fold
+        beside changes it by one, and unstable pairs that meet become real without passing.
+        """
+        change = abs(self.n_unstable - other.n_unstable)
+        if self.complete and other.complete:
+            return abs(self.pair_count() - other.pair_count())
+        return change // 2 + int(change == 1 and self.oscillations() != other.oscillations())
 
 
 def pair_counts(ev: Array, noise: Array) -> Array:
@@ -217,33 +232,21 @@ def _classified(ev: Array, noise: Array) -> list[Spectrum]:
 
 
 def _sparse_spectrum(stiffness: Any) -> Spectrum:
-    """Count unstable eigenvalues of J = -K, sparse: by inertia where J is symmetric, else near the axis."""
-    jac = sparse.csc_matrix(-stiffness)
-    n = jac.shape[0]
-    size = abs(jac).max()
-    if not np.isfinite(size):
-        return _undefined(min(_NEAREST, n))
-    if n <= _SMALL:
-        return spectrum(Pencil(None, None, stiffness.toarray()))
-    noise, shift = 1e-12 * size, 1e-3 * size / n
-    start = np.cos(np.arange(n, dtype=float))
-    try:
-        near = eigs(jac, k=_NEAREST, sigma=shift, v0=start, return_eigenvectors=False)
-        result = _classify(near, noise + 0.0 * near.real)
-    except RuntimeError:  # no convergence, or exactly singular
-        result = _undefined(_NEAREST)
-    if abs(jac - jac.T).max() <= _SYMMETRY_NOISE * size:
-        count = _positive(jac - noise * sparse.identity(n, format="csc"))
-        if count is not None:
-            state = UNSTABLE if count else result.stability if result.stability == MARGINAL else STABLE
-            return Spectrum(result.eigenvalues, state, count, result.noise, True, complete=False)
-    return replace(result, complete=False)
+    """Return the spectrum of J = -K, sparse: all of it where J is small, else what decides on stability."""
+    jac = -stiffness
+    size = float(abs(jac).max())
+    same = bool(abs(jac - jac.T).max() <= _SYMMETRY_NOISE * max(size, 1e-300))
+    if jac.shape[0] <= SMALL:
+        dense = jac.toarray()
+        if not (same and np.isfinite(size)):
+            return spectrum(Pencil(None, None, -dense))
+        values = symmetric_eigenvalues(0.5 * (dense + dense.T))
+        return replace(_classify(values, np.full(len(values), NOISE * size)), conservative=True)
+    found = rightmost(jac, same)
+    s = _classify(found.values, np.full(len(found.values), found.noise))
+    if not np.isfinite(found.noise):
+        return replace(s, complete=False, proven=False)
+    state = UNSTABLE if found.unstable else s.stability if found.proven else MARGINAL
+    return replace(s, stability=state, n_unstable=found.unstable, conservative=found.symmetric, complete=False,
+                   proven=found.proven)
 
-
-def _positive(jac: Any) -> int | None:
-    """Return how many eigenvalues of a sparse symmetric matrix are positive, from its pivots; None where they fail."""
-    try:
-        lu = splu(jac, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-    except RuntimeError:  # exactly singular: at a fold
-        return None
-    return int(np.count_nonzero(lu.U.diagonal() > 0)) if np.array_equal(lu.perm_r, lu.perm_c) else None

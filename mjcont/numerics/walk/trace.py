@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy import sparse
 
 from mjcont.numerics.equations import clock
 from mjcont.numerics.equations.newton import length
@@ -18,6 +19,7 @@ from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.events import Located
+from mjcont.numerics.spectra.stability import SPECTRUM
 from mjcont.numerics.step.arclength import OUTSIDE, CurvePoint
 from mjcont.numerics.walk.guard import guarded
 from mjcont.numerics.walk.onebyone import OneByOne
@@ -110,6 +112,7 @@ class Walker:
                 ended = step.ending is not None and item is step.items[-1]
                 if not ended or item.s - point.s > _SAME_POINT:
                     yield item
+                _left_behind(point)
                 point, count = item, count + 1
                 limit = None if item is step.items[-1] else self._limit(point, count)
                 if limit is not None:
@@ -123,7 +126,7 @@ class Walker:
 
     def _size(self, point: CurvePoint) -> float:
         n = self.system.n  # positions of a free body carry a quaternion beside n coordinates: measure those alone
-        return float(np.max(np.abs(point.x[:n]) / self.system.problem.state_scale))
+        return float(np.max(np.abs(point.x[:n]) / self.system.problem.typical))
 
     def _same(self, one: Located, other: Located, periods: Array) -> bool:
         """Whether a point was located twice: from both sides of a step's end, or at both ends of a closed curve."""
@@ -182,6 +185,13 @@ class Walker:
         aside = length(to_start - along * chord / size)
         # a step that ends on the start but for rounding meets it, or the next one would miss it as narrowly
         return bool(turns.any()) if 0.0 < along <= size + _SAME_LOCATED and aside <= 0.1 * size else None
+
+
+def _left_behind(point: CurvePoint) -> None:
+    """Let go of the matrices of a point of which they tell nothing more, where they are sparse: a curve has many."""
+    if sparse.issparse(point.jac) and SPECTRUM.known(point):
+        point.local.forget()
+        point.jac, point.past = None, ()
 
 
 def time_up(settings: Settings) -> End:

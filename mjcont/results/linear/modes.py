@@ -107,7 +107,7 @@ class Mode(Shown):
         """Return the factor of the shape at which it has an amplitude."""
         size = np.abs(self.shape)
         if amplitude is None:
-            return float(_SHOWN / max(np.max(size / self.point.model.state_scale), _REST))
+            return float(_SHOWN / max(np.max(size / self.point.model.typical), _REST))
         return amplitude / max(float(np.max(size)), _REST)
 
     @checked
@@ -258,7 +258,7 @@ def coordinates(model: Model) -> list[str]:
 def _largest(mode: Mode, most: int = 2) -> list[str]:
     """Return the coordinates that move most against their scales."""
     model = mode.point.model
-    size = np.abs(mode.shape) / model.state_scale
+    size = np.abs(mode.shape) / model.typical
     names = coordinates(model)
     order = np.lexsort((np.arange(len(size)), -np.round(size / max(size.max(), _REST), 6)))
     return [names[i] for i in order[:most] if size[i] > 0.1 * size.max()]

@@ -64,7 +64,7 @@ def point_of(orbit: Orbit, state: Array, stability: str, n_unstable: int) -> Orb
     numbers = {n: v for n, v in orbit.numbers().items() if n not in orbit.parameters}
     units = {**{n: unit_of(n, orbit.units) for n in numbers}, **orbit.units}
     return OrbitPoint(
-        orbit.parameters, numbers, state, orbit.multipliers, stability, n_unstable, orbit.problem, units, orbit
+        orbit.parameters, numbers, state, orbit.multipliers, stability, n_unstable, orbit.problem, units, orbit=orbit
     )
 
 
