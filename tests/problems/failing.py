@@ -16,9 +16,11 @@ from mjcont.numerics.equations import (
     adjoint,
     algebra,
     bordered,
+    coloured,
     columns,
     defining,
     differences,
+    frozen,
     newton,
     settings,
     starts,
@@ -137,9 +139,12 @@ def walk(bad):
 
 def pencil(bad):
     """Return a pencil with a singular mass and the field's stiffness."""
-    stiffness = -bad.local.raw_jac
-    stiffness = stiffness.toarray() if sparse.issparse(stiffness) else stiffness
-    return Pencil(np.zeros((bad.n, bad.n)), np.eye(bad.n), stiffness)
+    return Pencil(np.zeros((bad.n, bad.n)), np.eye(bad.n), algebra.dense(-bad.local.raw_jac))
+
+
+def thin_pencil(bad):
+    """Return it with sparse matrices."""
+    return Pencil(*(sparse.csc_matrix(m) for m in vars_of(pencil(bad))))
 
 
 def steps_without_points(bad):
@@ -166,6 +171,8 @@ def filled_step(bad):
 
 CASES = {
     "adjoint.Adjoint": lambda b: b.adjoint().weights(b.v),
+    "algebra.dense": lambda b: algebra.dense(b.local.raw_jac),
+    "algebra.full": lambda b: algebra.full(thin_pencil(b)),
     "algebra.solve": lambda b: algebra.solve(np.zeros((b.n, b.n)), b.v),
     "algebra.inverses": lambda b: algebra.inverses(np.zeros((2, b.n, b.n))),
     "algebra.least_squares": lambda b: algebra.least_squares(np.full((b.n, b.n), math.nan), b.v),
@@ -208,6 +215,10 @@ CASES = {
     "box.minimise": lambda b: box.minimise(lambda u: (math.nan, np.full(b.n, math.nan)), b.v, tol=1e-6),
     "codim2.zero_hopf_coefficients": lambda b: codim2.zero_hopf_coefficients(b.problem, b.x, b.values, 1.0),
     "codim2.double_hopf_coefficients": lambda b: codim2.double_hopf_coefficients(b.problem, b.x, b.values, 1.0, 1.0),
+    "coloured.Coloured": lambda b: [
+        c.jacobian(np.full((2 * c.groups, b.n), math.nan), 0.0 * b.v, differences.SECOND_ORDER)
+        for c in (coloured.Coloured.of(sparse.csc_matrix((b.n, b.n))), coloured.Coloured.of(b.sparse_jac))
+    ],
     "columns.scaled": lambda b: columns.scaled(b.sparse_jac, b.v, math.nan * b.v),
     "columns.bordered": lambda b: columns.bordered(b.sparse_jac, math.nan * b.v[:, None], b.v[None], np.zeros((1, 1))),
     "columns.largest_entries": lambda b: columns.largest_entries(b.sparse_jac),
@@ -227,7 +238,12 @@ CASES = {
     "corner.CornerDetector": lambda b: b.located([corner.CornerDetector(b.system, b.settings)]),
     "creep.rates": lambda b: creep.rates(b.local),
     "creep.creep": lambda b: creep.creep(b.problem, b.x, b.values, most=20),
-    "defining.parameter_slope": lambda b: defining.parameter_slope(lambda at: float(at.f[0]), b.local, "p"),
+    "frozen.parameter_slope": lambda b: frozen.parameter_slope(lambda at: float(at.f[0]), b.local, "p"),
+    "frozen.Motion": lambda b: frozen.Motion(0.0 * b.v, b.v, b.v, 1.0).forces(b.local, b.v[None], np.ones(1)),
+    "frozen.hopf_motions": lambda b: frozen.hopf_motions(np.zeros((2, b.n)), math.nan, 0.0),
+    "frozen.gradient": lambda b: frozen.gradient(
+        b.local, b.system, b.y, frozen.hopf_motions(np.zeros((2, b.n)), 0.0, 1.0), np.zeros((2, 2, b.n))
+    ),
     "defining.dense_pencil": lambda b: defining.dense_pencil(b.local),
     "defining.Fold": lambda b: (b.condition(b.fold), b.fold().gradient(b.local, b.system, b.y)),
     "defining.BranchPoint": lambda b: b.condition(lambda: defining.BranchPoint(b.local, b.free), 1),
@@ -255,8 +271,6 @@ CASES = {
         for fill in (0.0, math.nan, math.inf)
     ],
     "differences.second_form": lambda b: differences.second_form(b.problem, b.x, b.values, b.v, 0.0 * b.v),
-    "differences.product": lambda b: differences.product(b.problem, b.x, b.values, 0.0 * b.v),
-    "differences.product_slopes": lambda b: differences.product_slopes(b.problem, b.x, b.values, 0.0 * b.v),
     "differences.bilinear_gradient": lambda b: differences.bilinear_gradient(b.problem, b.x, b.values, b.x, b.x),
     "on_equilibria.square_system": lambda b: on_equilibria.square_system(b.system, [b.fold()], b.corrected),
     "on_equilibria.fold_detector": lambda b: b.located([on_equilibria.fold_detector(b.system, b.settings)]),
@@ -347,7 +361,8 @@ CASES = {
     "vibration.vibration": lambda b: vibration.vibration(pencil(b)),
     "vibration.frequency_response": lambda b: vibration.frequency_response(pencil(b), np.array([0.0, math.nan]), b.v),
     "spectrum.companion": lambda b: spectrum.companion(*vars_of(pencil(b))),
-    "spectrum.spectrum": lambda b: (spectrum.spectrum(b.local.pencil), spectrum.spectrum(pencil(b))),
+    "spectrum.spectrum": lambda b: [spectrum.spectrum(p) for p in (b.local.pencil, pencil(b), thin_pencil(b))],
+    "spectrum.positive_count": lambda b: spectrum.positive_count(b.sparse_jac),
     "spectrum.symmetric": lambda b: spectrum.symmetric(np.full((b.n, b.n), math.nan)),
     "spectrum.quadratic_eigenvalues": lambda b: spectrum.quadratic_eigenvalues(*vars_of(pencil(b))),
     "spectrum.conservative_spectra": lambda b: spectrum.conservative_spectra([pencil(b)]),

@@ -16,21 +16,15 @@ for the quadratic pencil P(s) = s^2 M + s C + K.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from scipy import sparse
 
-from mjcont.numerics.equations.algebra import singular
+from mjcont.numerics.equations import frozen
+from mjcont.numerics.equations.algebra import dense, singular
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, row_scale
-from mjcont.numerics.equations.differences import (
-    bilinear_gradient,
-    directional,
-    product,
-    product_slopes,
-    second_form,
-)
+from mjcont.numerics.equations.differences import bilinear_gradient, directional, second_form
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import ROW_GUARD, Condition, Local, System, equation_scale
@@ -53,8 +47,8 @@ class Fold(Condition):
         self._cache: tuple[Local, Array, Array, float] | None = None
 
     def _scaled(self, local: Local) -> Array:
-        dense = not sparse.issparse(local.jac)
-        found: Array = self.rows[:, None] * local.jac if dense else sparse.diags(self.rows) @ local.jac
+        full = not sparse.issparse(local.jac)
+        found: Array = self.rows[:, None] * local.jac if full else sparse.diags(self.rows) @ local.jac
         return found
 
     def vectors(self, local: Local) -> tuple[Array, Array, float]:
@@ -86,7 +80,7 @@ class Fold(Condition):
         out = np.empty(system.n + len(system.free))
         out[: system.n] = -bilinear_gradient(local.problem, local.x, local.values, w, v)
         for i, p in enumerate(system.free):
-            slope = parameter_slope(lambda at: w @ directional(at.problem, at.x, at.values, v, 1), local, p.name)
+            slope = frozen.parameter_slope(lambda at: w @ directional(at.problem, at.x, at.values, v, 1), local, p.name)
             out[system.n + i] = -slope * p.slope(float(y[i]))
         return out[None]
 
@@ -95,17 +89,6 @@ class Fold(Condition):
         v, w, _ = self.vectors(local)
         self.b, self.c = w / np.linalg.norm(w), v / np.linalg.norm(v)
         self._cache = None
-
-
-def parameter_slope(function: Callable[[Local], Any], local: Local, name: str) -> Any:
-    """Return d function / d p, a number or an array, for a parameter, in physical units, by differences in p."""
-    bounds = local.ranges[local.wrt.index(name)] if local.ranges else None
-    rule, h = local.problem.parameter_stencil(name, local.values[name], bounds)
-    total: Any = 0.0
-    for offset, weight in zip(rule.offsets, rule.weights, strict=True):
-        values = {**local.values, name: local.values[name] + offset * h}
-        total += weight * function(Local(local.problem, local.x, values, local.wrt, local.accurate, local.ranges))
-    return total / h
 
 
 def _bend(system: System, local: Local, y: Array, v: Array) -> Array | None:
@@ -271,12 +254,13 @@ class Hopf(Condition):
         return Factored(self._bordered(local, k)).solve(rhs)[-2:]
 
     def gradient(self, local: Local, system: System, y: Array) -> Array | None:
-        """Return dg = -p' dA q over x, parameters and the auxiliary unknown, (2, n + k), by products of J with q alone.
+        """Return dg = -p' dA q over x, parameters and the auxiliary unknown, (2, n + k), by products with q alone.
 
-        None where differences of the matrices themselves are to be taken: with a mass matrix, and where J is given.
+        None where differences of the matrices themselves are to be taken: where J is given, or the problem does not
+        tell forces of motions.
         """
         problem, n = local.problem, system.n
-        if problem.second_order or problem.own_jacobian:
+        if problem.own_jacobian:
             return None
         at = system.place(self)
         k = self.square(y[at : at + 1]) / self.inner / self.inner
@@ -285,15 +269,11 @@ class Hopf(Condition):
         right, left = factored.solve(ends[0]), np.array([factored.solve_transposed(e) for e in ends])
         q = right[: 2 * n].reshape(2, n) * problem.state_scale
         p = left[:, : 2 * n].reshape(2, 2, n) * self.rows
+        known = frozen.gradient(local, system, y, frozen.hopf_motions(q, k, self.inner), p)
+        if known is None:
+            return None
         out = np.zeros((2, n + system.k))
-        for j in range(2):
-            out[:, :n] += p[:, j] @ product_slopes(problem, local.x, local.values, q[j]).T
-        def products(beside: Local) -> Array:
-            return np.array([product(problem, beside.x, beside.values, v) for v in q])
-
-        for i, free in enumerate(system.free):
-            moved = parameter_slope(products, local, free.name) * free.slope(float(y[i]))
-            out[:, n + i] = np.einsum("ijk,jk->i", p, moved)
+        out[:, : known.shape[1]] = known
         ahead = self._bordered(local, k + 0.5) - self._bordered(local, k - 0.5)  # it is linear in k
         rate = (self.rate / self.inner) ** 2 * float(np.cosh(y[at]))
         out[:, n + at] = -left @ ahead @ right * rate
@@ -330,10 +310,9 @@ def _generator(even: Array, odd: Array, k: float) -> Array:
 def dense_pencil(local: Local) -> tuple[Array, Array, Array]:
     """Return (M, C, K) as dense arrays, with zeros and the identity for a first-order system."""
     pencil, n = local.pencil, local.problem.n
-    stiffness = pencil.stiffness.toarray() if sparse.issparse(pencil.stiffness) else pencil.stiffness
-    mass = np.zeros((n, n)) if pencil.mass is None else pencil.mass
-    damping = np.eye(n) if pencil.damping is None else pencil.damping
-    return mass, damping, stiffness
+    mass = np.zeros((n, n)) if pencil.mass is None else dense(pencil.mass)
+    damping = np.eye(n) if pencil.damping is None else dense(pencil.damping)
+    return mass, damping, dense(pencil.stiffness)
 
 
 class FoldCoefficient(Condition):

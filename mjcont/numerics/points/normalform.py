@@ -17,9 +17,8 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
-from mjcont.numerics.equations.algebra import least_squares, singular, solve
+from mjcont.numerics.equations.algebra import dense, least_squares, singular, solve
 from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
@@ -67,8 +66,7 @@ def _size(v: Array, problem: Equations) -> float:
 
 def _bordered_solve(jac: Any, w: Array, v: Array, rhs: Array) -> Array:
     """Return h with J h = rhs up to the left null direction and v . h = 0."""
-    matrix = jac.toarray() if sparse.issparse(jac) else jac
-    full = np.block([[matrix, w[:, None]], [v[None], np.zeros((1, 1))]])
+    full = np.block([[dense(jac), w[:, None]], [v[None], np.zeros((1, 1))]])
     return least_squares(full, np.append(rhs, 0.0))[:-1]
 
 
@@ -229,8 +227,7 @@ def double_zero_coefficients(problem: Equations, x: Array, values: Values) -> di
 
 def pitchfork_coefficient(local: Local, w: Array) -> float:
     """Return the cubic coefficient c of x' = b mu x + c x^3: supercritical for c < 0."""
-    jac = local.raw_jac.toarray() if sparse.issparse(local.raw_jac) else local.raw_jac
-    v = singular(jac)[2][-1]
+    v = singular(dense(local.raw_jac))[2][-1]
     return cusp_coefficient(local, v, w)
 
 
