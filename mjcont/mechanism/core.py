@@ -13,6 +13,7 @@ from mjcont.mechanism.batches import ModelVariants
 from mjcont.mechanism.derivatives import Derivatives
 from mjcont.mechanism.evaluation import Evaluator
 from mjcont.mechanism.geometry import Geometry
+from mjcont.mechanism.large.couplings import couplings
 from mjcont.mechanism.observables import Readings
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.models.features import touching
@@ -60,7 +61,8 @@ class Core:
         self.readings = Readings(model, self.parameters, self.writer_of(model), constrained)
         self.evaluator = Evaluator(self.model, self.writer, constrained, evaluations)
         self.nonsmooth = self.evaluator.nonsmooth
-        self.derivatives = Derivatives(self.evaluator, self.writer, parameters, scale, moved)
+        sparse = None if self.nonsmooth else couplings(self.model)
+        self.derivatives = Derivatives(self.evaluator, self.writer, parameters, scale, moved, sparse)
         fresh = partial(_fresh, self.loaded, parameters, geometry)
         self.variants = ModelVariants(fresh, self.loaded.nbuffer, parameters, self.evaluator.counted)
 

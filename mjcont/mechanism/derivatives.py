@@ -10,6 +10,7 @@ import numpy as np
 from mjcont.mechanism.evaluation import Evaluator
 from mjcont.mechanism.sides import difference_rule, on_one_side, parameter_rate
 from mjcont.mechanism.writer import FieldWriter
+from mjcont.numerics.equations.coloured import Coloured
 from mjcont.numerics.equations.differences import FORWARD, jacobian_from_rows, jacobian_steps, stencil
 from mjcont.numerics.equations.problem import Array, Linearization, Range, Ranges, Stencil, Values
 from mjcont.results.quantities import Parameter
@@ -26,6 +27,7 @@ class Derivatives:
     ----------
     scale : (nv,) typical size of each tangent coordinate.
     moved : from a state and tangent steps (m, nv) to states (m, nq).
+    couplings : where df/dx can have entries, if it is to be sparse.
     failure : why the model does not compile at a point of the last stencil; empty if it does.
     """
 
@@ -34,6 +36,7 @@ class Derivatives:
     parameters: Mapping[str, Parameter]
     scale: Array
     moved: Callable[[Array, Array], Array]
+    couplings: Coloured | None = None
     failure: str = ""
 
     def linearize(
@@ -41,14 +44,15 @@ class Derivatives:
     ) -> Linearization:
         """Return the forces with their derivatives in the state and in the parameters `wrt`."""
         rule, self.failure = stencil(accurate), ""
-        steps = jacobian_steps(self.scale, rule)
+        sparse, scale = self.couplings, self.scale
+        steps = jacobian_steps(scale, rule) if sparse is None else sparse.steps(scale, rule)
         self.writer.write(self.parameters, values)
         smooth = not self.evaluator.nonsmooth
         within = dict(zip(wrt, ranges or [None] * len(wrt), strict=True))
         riders = [n for n in wrt if smooth and self.writer.alone(self.parameters, n)]
         rows, rates = self._with_riders(x, values, self.moved(x, steps), {n: within[n] for n in riders})
         f, sides = rows[0].copy(), self.evaluator.sides
-        jac = jacobian_from_rows(rows[1:], self.scale, rule)
+        jac = jacobian_from_rows(rows[1:], scale, rule) if sparse is None else sparse.jacobian(rows[1:], scale, rule)
         if sides and not self.writer.failure:
             jac = on_one_side(jac, rows, sides, steps, lambda finer: self._pieces(x, finer), accurate)
         piece = b"".join(sides[:1])
@@ -84,8 +88,8 @@ class Derivatives:
         return rows[:count], (rows[count:] - rows[0]) / np.array(steps)[:, None]
 
     def side_by_side(self, name: str) -> bool:
-        """Whether rows of one batch may differ in a parameter."""
-        return not self.evaluator.nonsmooth and self.writer.alone(self.parameters, name)
+        """Whether rows of one batch may differ in a parameter, and their matrices are full."""
+        return self.couplings is None and not self.evaluator.nonsmooth and self.writer.alone(self.parameters, name)
 
     def along(self, states: Array, values: Values, name: str, column: Array) -> Array:
         """Return forces at states (m, nq), a parameter having a value of its own in each (m,), shape (m, nv)."""

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import mujoco
 import numpy as np
+from scipy import sparse
 
 from mjcont.mechanism.batches import ConstrainedRows, Rows
 from mjcont.mechanism.kinks import Kinks
+from mjcont.mechanism.large import matrices
+from mjcont.mechanism.large.stages import LARGE, Stages
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.models.actuators import is_bush, pin_slides
 from mjcont.models.features import explicit_damping, linear_in_velocity
@@ -42,6 +46,8 @@ class Evaluator:
         self._constrained = ConstrainedRows(model, self._kinks) if constrained else None
         self._last: Rows | ConstrainedRows | None = self._constrained
         self._dampers = None if self.nonsmooth else Dampers.of(model)
+        self._stages = None if self.nonsmooth else Stages(model)
+        self._large = None if model.nv < LARGE else self._stages
         self._batches: dict[int, Rows] = {}
         self._data = mujoco.MjData(model)
         self._warned = Warned(self._data)
@@ -70,10 +76,20 @@ class Evaluator:
             return np.full((len(qpos), self.model.nv), np.nan)
         if self._constrained is not None:
             return self._constrained.forward(qpos, qvel, self.writer)
+        if self._large is not None:
+            return self._large.forces(qpos, qvel, self.writer, ctrl)
         if len(qpos) == 1 and qvel is None and self._kinks is None and ctrl is None:
             return self._single(qpos[0])
         rows = self._last = self._rows(len(qpos))
         return rows.forward(qpos, qvel, self.writer, ctrl)
+
+    def left_forces(self, qpos: Array, qvel: Array, qacc: Array) -> Array:
+        """Return f - M a of a model whose forces are smooth, for motions with velocities and accelerations, (m, nv)."""
+        check()
+        self.count += len(qpos)
+        if self.writer.failure or self._stages is None:
+            return np.full((len(qpos), self.model.nv), np.nan)
+        return self._stages.forces(qpos, qvel, self.writer, qacc=qacc)
 
     def _single(self, x: Array) -> Array:
         """Return the forces at rest in one state, (1, nv): a batch of one costs more than MuJoCo's own call."""
@@ -109,6 +125,8 @@ class Evaluator:
             return np.full((len(qpos), self.model.nv + (0 if act is None else act.shape[1])), np.nan)
         if self._constrained is not None:
             return self._constrained.accelerations(qpos, qvel, self.writer, act)
+        if self._large is not None and act is None:
+            return self._large.accelerations(qpos, qvel, self.writer, ctrl)
         rows = self._last = self._rows(len(qpos))
         if act is None:
             rows.forward(qpos, qvel, self.writer, ctrl)
@@ -174,6 +192,14 @@ class Evaluator:
         mujoco.mj_fullM(self.model, self.position(x), dense)
         return dense
 
+    def sparse_matrices(self, x: Array, scale: Array) -> tuple[Any, Any]:
+        """Return mass and damping of a model whose forces are smooth as sparse matrices, (nv, nv) each."""
+        data = self.position(x)
+        inertia = matrices.mass(self.model, data)
+        if self._dampers is not None and not self.writer.failure:
+            return inertia, self._dampers.sparse_matrix(data)
+        return inertia, sparse.csc_matrix(self.damping(x, scale))
+
     def damping(self, x: Array, scale: Array) -> Array:
         """Return -d forces/dv at rest, (nv, nv).
 
@@ -233,6 +259,11 @@ class Dampers:
             mujoco.mju_sparse2dense(moments, data.ten_J, m.ten_J_rownnz, m.ten_J_rowadr, m.ten_J_colind)
             found += (moments.T * on) @ moments
         return found
+
+    def sparse_matrix(self, data: mujoco.MjData) -> Any:
+        """Return C as `matrix` does, sparse."""
+        along = self._model.actuator_damping + self._laws(data)
+        return matrices.dampers(self._model, data, along, self._model.tendon_damping)
 
     def _laws(self, data: mujoco.MjData) -> Array:
         """Return the damping constants of actuators from their gains and biases, (nactuator,)."""

@@ -30,7 +30,7 @@ from mjcont.mechanism.zeromodes import whole as rigid
 from mjcont.mechanism.zeromodes.parts import Held
 from mjcont.models import features, loading
 from mjcont.models.actuators import bush_names
-from mjcont.models.manifold import Manifold
+from mjcont.models.manifold import Manifold, OnManifold
 from mjcont.models.states import (
     checked_state,
     coordinate_labels,
@@ -39,13 +39,24 @@ from mjcont.models.states import (
     state_labels,
     state_scale,
 )
-from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values, Variants
+from mjcont.numerics.equations.algebra import dense
+from mjcont.numerics.equations.problem import (
+    Array,
+    Linearization,
+    Matrix,
+    Pencil,
+    Range,
+    Ranges,
+    Stencil,
+    Values,
+    Variants,
+)
 from mjcont.results.model import Model
 from mjcont.results.quantities import Parameter, check_name, check_values, told_apart
 from mjcont.results.text import ParameterTable
 
 
-class Mechanism(Shareable, Observed, Held, Model):
+class Mechanism(Shareable, Observed, Held, OnManifold, Model):
     """A MuJoCo model as an equilibrium problem f(q, p) = 0 with named parameters and observables.
 
     Use `Mechanism.from_xml`, `from_spec` or `from_model` to make one.
@@ -223,6 +234,21 @@ class Mechanism(Shareable, Observed, Held, Model):
         core.writer.write(self.parameters, values)
         return core.evaluator.forces(self.retract_each(x, steps)).copy()
 
+    def left_forces(
+        self, x: Array, values: Values, steps: Array, velocities: Array, accelerations: Array
+    ) -> Array | None:
+        """Return the forces that motions leave, f - M a, (m, nv); None where modes are held or forces have kinks."""
+        core = self._core
+        if self._held or core.nonsmooth:
+            return None
+        core.writer.write(self.parameters, values)
+        return core.evaluator.left_forces(self.retract_each(x, steps), velocities, accelerations)
+
+    @property
+    def one_pattern(self) -> bool:
+        """Whether df/dx is sparse, with the same entries everywhere."""
+        return self._core.derivatives.couplings is not None and not self._held
+
     @property
     def pieces(self) -> list[bytes]:
         """On which smooth piece of the forces each row of the last evaluation lies; empty where they are smooth."""
@@ -265,23 +291,24 @@ class Mechanism(Shareable, Observed, Held, Model):
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
     ) -> Linearization:
         """Return the residual with its derivatives in the state and in the parameters `wrt`."""
-        core = self._core
         refuse_overlap(self.parameters, values, tuple(wrt))
-        found = core.derivatives.linearize(x, values, wrt, accurate, ranges)
+        found = self._core.derivatives.linearize(x, values, wrt, accurate, ranges)
         if not self._held:
             return found
-        mass = core.evaluator.mass(x)
-        held = rigid.rate(found.jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
-        return Linearization(found.f, found.jac - held, found.par, found.piece)
+        mass, jac = self._core.evaluator.mass(x), dense(found.jac)
+        held = rigid.rate(jac, mass) ** 2 * rigid.holding(mass, self._held_directions(x))
+        return Linearization(found.f, jac - held, found.par, found.piece)
 
     def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
         """Return the difference rule and step for derivatives in a parameter."""
         return self._core.derivatives.rule(name, value, bounds)
 
-    def pencil(self, x: Array, values: Values, jac: Array) -> Pencil:
-        """Return mass, damping and stiffness matrices, (nv, nv) each; `jac` is the residual's Jacobian there."""
+    def pencil(self, x: Array, values: Values, jac: Matrix) -> Pencil:
+        """Return mass, damping and stiffness matrices, (nv, nv) each, sparse where the residual's Jacobian `jac` is."""
         core = self._core
         core.writer.write(self.parameters, values)
+        if not isinstance(jac, np.ndarray):
+            return Pencil(*core.evaluator.sparse_matrices(x, self.state_scale), -jac)
         mass, damping = core.evaluator.mass(x), core.evaluator.damping(x, self.state_scale)
         if self._held:
             # critical damping: a held mode decays and can never look unstable or marginal
@@ -298,7 +325,8 @@ class Mechanism(Shareable, Observed, Held, Model):
         core = self._core
         loads = {n for n, p in self.parameters.items() if p.kind in ("control", "gravity")}
         first = values[0]
-        if self._held or any(v[n] != first[n] for v in values for n in first.keys() - loads):
+        single = self._held or core.derivatives.couplings is not None
+        if single or any(v[n] != first[n] for v in values for n in first.keys() - loads):
             return [self.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]
         core.writer.write(self.parameters, first)
         evaluator, scale = core.evaluator, self.state_scale
@@ -311,28 +339,6 @@ class Mechanism(Shareable, Observed, Held, Model):
         velocity = steps[:, self.n :]
         moved = self.retract_each(x, steps[:, : self.n])
         return np.hstack([velocity, core.evaluator.accelerations(moved, velocity)])
-
-    def periods(self, x: Array, values: Values) -> Array:
-        """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
-        return rigid.full_turns(self, x, values)
-
-    # -- the manifold ----------------------------------------------------------------------------------------
-
-    def retract(self, x: Array, step: Array) -> Array:
-        """Return qpos moved by a tangent step, quaternions normalised."""
-        return self._manifold.retract(x, step)
-
-    def difference(self, x1: Array, x0: Array) -> Array:
-        """Return the tangent step (nv,) from x0 to x1."""
-        return self._manifold.difference(x1, x0)
-
-    def difference_each(self, ends: Array, starts: Array) -> Array:
-        """Return the tangent steps (m, nv) that take states (m, nq), or one (nq,), to others."""
-        return self._manifold.difference_each(ends, starts)
-
-    def retract_each(self, states: Array, steps: Array) -> Array:
-        """Return states (m, nq), or one (nq,), moved by the rows of tangent steps (m, nv)."""
-        return self._manifold.retract_each(states, steps)
 
     def active(self, x: Array, values: Values) -> frozenset[str]:
         """Return the names of the limits and contacts that carry load at rest."""

@@ -62,3 +62,25 @@ class Manifold:
         every = np.broadcast_to(states, (len(steps), self._nq))
         moved = [self.retract(x, s) for x, s in zip(every, steps, strict=True)]
         return np.array(moved).reshape(len(moved), self._nq)
+
+
+class OnManifold:
+    """A problem whose states are poses of a model."""
+
+    _manifold: Manifold
+
+    def retract(self, x: Array, step: Array) -> Array:
+        """Return qpos moved by a tangent step, quaternions normalised."""
+        return self._manifold.retract(x, step)
+
+    def difference(self, x1: Array, x0: Array) -> Array:
+        """Return the tangent step (nv,) from x0 to x1."""
+        return self._manifold.difference(x1, x0)
+
+    def difference_each(self, ends: Array, starts: Array) -> Array:
+        """Return the tangent steps (m, nv) that take states (m, nq), or one (nq,), to others."""
+        return self._manifold.difference_each(ends, starts)
+
+    def retract_each(self, states: Array, steps: Array) -> Array:
+        """Return states (m, nq), or one (nq,), moved by the rows of tangent steps (m, nv)."""
+        return self._manifold.retract_each(states, steps)

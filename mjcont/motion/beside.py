@@ -17,6 +17,7 @@ import numpy as np
 
 from mjcont.curves.collect import Amount
 from mjcont.motion.integrating import follow
+from mjcont.numerics.equations.algebra import dense
 from mjcont.numerics.equations.problem import Array
 from mjcont.oscillation.walks import flow_for
 from mjcont.results.branch import Branch
@@ -139,8 +140,7 @@ def _check_rest(
         return check_of(branch, row, s, math.nan, 0.0, UNRESOLVED,
                         "classified as marginal: the eigenvalue is on the axis within its noise")
     x, values = branch.states[row], field.values(branch.parameters_at(row))
-    jac = field.linearize(x, values, (), accurate=True).jac
-    jac = jac.toarray() if hasattr(jac, "toarray") else np.asarray(jac)
+    jac = dense(field.linearize(x, values, (), accurate=True).jac)
     found, right = np.linalg.eig(jac)
     k = int(np.argmin(np.abs(found - s)))
     left = np.linalg.svd((jac - found[k] * np.eye(len(x))).conj().T)[2][-1].conj()

@@ -31,7 +31,7 @@ from mjcont.mechanism.mechanism import Mechanism
 from mjcont.models.quiet import quiet, quiet_data
 from mjcont.motion.beside import check_beside, check_of
 from mjcont.motion.stepping import INTEGRATORS
-from mjcont.numerics.equations.algebra import singular
+from mjcont.numerics.equations.algebra import full, singular
 from mjcont.numerics.equations.problem import Array, Pencil
 from mjcont.numerics.spectra.spectrum import quadratic_eigenvalues
 from mjcont.results.branch import Branch
@@ -189,7 +189,7 @@ def _probe(
         return unresolved("a corner: a limit or contact begins or ceases to carry load here")
     point, stored = branch.row(row), _critical(branch, row)
     values, x = mechanism.values(point.parameters), point.state
-    pencil = mechanism.pencil(x, values, mechanism.linearize(x, values, (), accurate=True).jac)
+    pencil = full(mechanism.pencil(x, values, mechanism.linearize(x, values, (), accurate=True).jac))
     assert pencil.mass is not None and pencil.damping is not None
     found = quadratic_eigenvalues(pencil.mass, pencil.damping, pencil.stiffness)
     s = complex(found[np.argmin(np.abs(found - stored))])

@@ -22,7 +22,7 @@ from mjcont.mechanism.energy import potential_energy, without_potential
 from mjcont.motion.escape import Landing, escape
 from mjcont.motion.legs import FRACTION, Leg, loads_of, unwrapped
 from mjcont.numerics.equations import clock
-from mjcont.numerics.equations.algebra import eigenvectors, singular, solve
+from mjcont.numerics.equations.algebra import dense, eigenvectors, full, singular, solve
 from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array, Values
@@ -353,9 +353,7 @@ def _critical(problem: Any, point: Any, kind: str, travel: Array) -> Array:
 
 
 def _mode(problem: Any, local: Local, kind: str) -> Array:
-    jac: Any = local.raw_jac
-    jac = jac.toarray() if hasattr(jac, "toarray") else jac
-    pencil = local.pencil
+    jac, pencil = dense(local.raw_jac), full(local.pencil)
     if kind == "HB" and pencil.mass is not None and pencil.damping is not None:
         ev = quadratic_eigenvalues(pencil.mass, pencil.damping, -jac)
         s = ev[np.argmax(np.where(ev.imag > 0, ev.real, -np.inf))]

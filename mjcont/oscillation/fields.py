@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
 from mjcont.errors import MjcontError, ParameterError
+from mjcont.numerics.equations.algebra import dense
 from mjcont.numerics.equations.differences import FOURTH_ORDER, PARAMETER, jacobian_steps
 from mjcont.numerics.equations.problem import Array, Ranges, Values
 from mjcont.numerics.orbits.flow import Rates
@@ -113,7 +113,7 @@ class FieldFlow(ModelFlow):
     def _jacobians(self, states: Array, phases: Array, values: Values) -> Array:
         if self.field.jacobian is not None and not self.field.timed and self.forcing is None:
             found: list[Any] = [self.field.linearize(u, values, ()).jac for u in states]
-            return np.array([j.toarray() if sparse.issparse(j) else j for j in found])
+            return np.array([dense(j) for j in found])
         rule, sizes = FOURTH_ORDER, np.maximum(self.scale, np.sqrt((states**2).mean(axis=0)))
         steps = jacobian_steps(sizes, rule)
         moved = (states[:, None, :] + steps).reshape(-1, self.c)

@@ -9,6 +9,7 @@ from scipy import sparse
 
 from mjcont.arguments import checked
 from mjcont.errors import MjcontError
+from mjcont.numerics.equations.algebra import full
 from mjcont.numerics.equations.problem import Array, Pencil
 from mjcont.numerics.spectra.spectrum import DIFFERENCE_NOISE, spectrum
 from mjcont.numerics.spectra.vibration import vibration
@@ -29,14 +30,14 @@ def linearized(point: Point, wrt: Sequence[str] = ()) -> tuple[Pencil, Array]:
     Raises
     ------
     MjcontError
-        If the point is no equilibrium, has no model, or its model is sparse.
+        If the point is no equilibrium, has no model, or that is a sparse vector field.
     """
     check_point(point)
     model = point.model
     local = model.linearize(point.state, point.parameters, tuple(wrt), accurate=True)
-    if sparse.issparse(local.jac):
+    if sparse.issparse(local.jac) and not model.second_order:
         raise MjcontError(f"{model.name} has a sparse Jacobian: modes need a dense one")
-    return model.pencil(point.state, point.parameters, local.jac), local.par
+    return full(model.pencil(point.state, point.parameters, local.jac)), local.par
 
 
 @checked

@@ -21,9 +21,9 @@ _ENGINE = frozenset(
     """
     active admissible connections constrained coordinates declare_again
     derivative_along difference_each failure first_order follows_scale held holding
-    holds_straight linearize_along measure_along nonsmooth one_pattern own_jacobian parameter_stencil passive pencils
-    periods pieces rates_together rescaled residuals residuals_along retract_each rigid_directions rigid_modes
-    second_order side_by_side timed together typical variants vectorized writer
+    holds_straight left_forces linearize_along measure_along nonsmooth one_pattern own_jacobian parameter_stencil
+    passive pencils periods pieces rates_together rescaled residuals residuals_along retract_each rigid_directions
+    rigid_modes second_order side_by_side timed together typical variants vectorized writer
     """.split()
 )
 

@@ -137,9 +137,12 @@ def walk(bad):
 
 def pencil(bad):
     """Return a pencil with a singular mass and the field's stiffness."""
-    stiffness = -bad.local.raw_jac
-    stiffness = stiffness.toarray() if sparse.issparse(stiffness) else stiffness
-    return Pencil(np.zeros((bad.n, bad.n)), np.eye(bad.n), stiffness)
+    return Pencil(np.zeros((bad.n, bad.n)), np.eye(bad.n), algebra.dense(-bad.local.raw_jac))
+
+
+def thin_pencil(bad):
+    """Return it with sparse matrices."""
+    return Pencil(*(sparse.csc_matrix(m) for m in vars_of(pencil(bad))))
 
 
 def steps_without_points(bad):
@@ -166,6 +169,8 @@ def filled_step(bad):
 
 CASES = {
     "adjoint.Adjoint": lambda b: b.adjoint().weights(b.v),
+    "algebra.dense": lambda b: algebra.dense(b.local.raw_jac),
+    "algebra.full": lambda b: algebra.full(thin_pencil(b)),
     "algebra.solve": lambda b: algebra.solve(np.zeros((b.n, b.n)), b.v),
     "algebra.inverses": lambda b: algebra.inverses(np.zeros((2, b.n, b.n))),
     "algebra.least_squares": lambda b: algebra.least_squares(np.full((b.n, b.n), math.nan), b.v),
@@ -227,7 +232,6 @@ CASES = {
     "corner.CornerDetector": lambda b: b.located([corner.CornerDetector(b.system, b.settings)]),
     "creep.rates": lambda b: creep.rates(b.local),
     "creep.creep": lambda b: creep.creep(b.problem, b.x, b.values, most=20),
-    "defining.parameter_slope": lambda b: defining.parameter_slope(lambda at: float(at.f[0]), b.local, "p"),
     "defining.pencil_of": lambda b: defining.pencil_of(b.local),
     "defining.Fold": lambda b: (b.condition(b.fold), b.fold().gradient(b.local, b.system, b.y)),
     "defining.BranchPoint": lambda b: b.condition(lambda: defining.BranchPoint(b.local, b.free), 1),
@@ -253,8 +257,6 @@ CASES = {
         for fill in (0.0, math.nan, math.inf)
     ],
     "differences.second_form": lambda b: differences.second_form(b.problem, b.x, b.values, b.v, 0.0 * b.v),
-    "differences.product": lambda b: differences.product(b.problem, b.x, b.values, 0.0 * b.v),
-    "differences.product_slopes": lambda b: differences.product_slopes(b.problem, b.x, b.values, 0.0 * b.v),
     "differences.bilinear_gradient": lambda b: differences.bilinear_gradient(b.problem, b.x, b.values, b.x, b.x),
     "on_equilibria.square_system": lambda b: on_equilibria.square_system(b.system, [b.fold()], b.corrected),
     "on_equilibria.fold_detector": lambda b: b.located([on_equilibria.fold_detector(b.system, b.settings)]),
@@ -344,7 +346,7 @@ CASES = {
     "vibration.vibration": lambda b: vibration.vibration(pencil(b)),
     "vibration.frequency_response": lambda b: vibration.frequency_response(pencil(b), np.array([0.0, math.nan]), b.v),
     "spectrum.companion": lambda b: spectrum.companion(*vars_of(pencil(b))),
-    "spectrum.spectrum": lambda b: (spectrum.spectrum(b.local.pencil), spectrum.spectrum(pencil(b))),
+    "spectrum.spectrum": lambda b: [spectrum.spectrum(p) for p in (b.local.pencil, pencil(b), thin_pencil(b))],
     "spectrum.symmetric": lambda b: spectrum.symmetric(np.full((b.n, b.n), math.nan)),
     "spectrum.quadratic_eigenvalues": lambda b: spectrum.quadratic_eigenvalues(*vars_of(pencil(b))),
     "spectrum.conservative_spectra": lambda b: spectrum.conservative_spectra([pencil(b)]),

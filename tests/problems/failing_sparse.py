@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from mjcont.numerics.equations import bends, bordered, columns, onfolds
+from mjcont.numerics.equations import bends, bordered, coloured, columns, differences, frozen, onfolds
 from mjcont.numerics.points import normalform, on_equilibria
 from mjcont.numerics.spectra import large
 from problems.failing import Bad
@@ -47,13 +47,36 @@ def on_fold(bad, build):
     return found, build(fold, b.local).gradient(b.local, b.system, b.y)
 
 
+def found(b, entries):
+    """Return a matrix with these entries, by differences that are no numbers."""
+    coloured_by = coloured.Coloured.of(sparse.csc_matrix(entries))
+    rows = np.full((2 * coloured_by.groups, b.n), math.nan)
+    return coloured_by.jacobian(rows, 0.0 * b.v, differences.SECOND_ORDER)
+
+
+def moved(b, motion):
+    """Return the forces of a motion."""
+    return motion.forces(b.local, b.v[None], np.ones(1))
+
+
+def slopes(b, motions):
+    """Return the gradient of a condition whose left vectors are zero."""
+    return frozen.gradient(b.local, b.system, b.y, motions, np.zeros((2, 2, b.n)))
+
+
 CASES = {
     "bends.bend": lambda m: bends.bend(m.field.local, m.field.system, m.field.y, m.field.v, m.field.v, order=2),
     "bends.bends_itself": lambda m: bends.bends_itself(m.field.local),
     "bends.reach_of": lambda m: bends.reach_of(m.field.local, math.nan * m.field.v),
     "bordered.null_pair": lambda m: bordered.null_pair(m.matrix.astype(complex)),
+    "coloured.Coloured": lambda m: [found(m.field, entries) for entries in (0.0 * m.field.sparse_jac, m.field.sparse_jac)],
     "columns.weighted": lambda m: columns.weighted(m.matrix, np.zeros(m.n), np.full(m.n, math.inf)),
+    "frozen.parameter_slope": lambda m: frozen.parameter_slope(lambda at: float(at.f[0]), m.field.local, "p"),
+    "frozen.hopf_motions": lambda m: frozen.hopf_motions(np.zeros((2, m.field.n)), math.nan, 0.0),
+    "frozen.Motion": lambda m: moved(m.field, frozen.Motion(0.0 * m.field.v, m.field.v, m.field.v, 1.0)),
+    "frozen.gradient": lambda m: slopes(m.field, frozen.hopf_motions(np.zeros((2, m.field.n)), 0.0, 1.0)),
     "large.nearest": lambda m: [large.nearest(m.matrix, place) for place in (0.0, 1j, math.nan)],
+    "large.positive_count": lambda m: large.positive_count(m.matrix),
     "large.rightmost": lambda m: [large.rightmost(m.matrix, symmetric) for symmetric in (False, True)],
     "normalform.bordered_solve": lambda m: normalform.bordered_solve(m.matrix, *np.ones((3, m.n))),
     "normalform.shifted": lambda m: normalform.shifted(m.matrix, math.nan),

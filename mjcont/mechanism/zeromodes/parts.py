@@ -18,6 +18,7 @@ import numpy as np
 
 from mjcont.mechanism.core import Core
 from mjcont.mechanism.zeromodes import whole as rigid
+from mjcont.mechanism.zeromodes.trees import condensed, fitted, trees, turning
 from mjcont.numerics.equations.algebra import least_squares, singular
 from mjcont.numerics.equations.problem import Array, Values
 
@@ -40,7 +41,7 @@ class _Part:
     root : its first body.
     inside : (nbody,) whether a body belongs to it.
     joint : the ball or free joint of its first body, if its twists are about that in the axes of the ground; else -1.
-    barred, work : for each state, velocities that the joints do not allow (6 m, 6), and power of the forces (6,).
+    barred, work : for each state, velocities that the joints do not allow (k, 6), and power of the forces (6,).
     """
 
     name: str
@@ -51,8 +52,8 @@ class _Part:
     work: list[Array] = field(default_factory=list)
 
     def opposed(self, largest: float) -> Array:
-        """Return a row for each velocity that is barred and each force, for forces of a largest size."""
-        return np.concatenate([*self.barred, np.array(self.work) / (largest or 1.0)])
+        """Return what opposes it, velocities that are barred and forces, for forces of a largest size."""
+        return condensed(np.concatenate([*self.barred, np.array(self.work) / (largest or 1.0)]))
 
 
 def zero_modes(
@@ -97,14 +98,15 @@ def directions(model: mujoco.MjModel, data: mujoco.MjData, names: Iterable[str])
     """Return the tangent vectors (nv,) along motions of parts, by name; what the joints do not allow is left out."""
     if not (wanted := list(names)):
         return {}
-    jac, found = rigid._bodies(model, data)[0], {}
+    every, found = trees(model, data), {}
     parts = _parts(model)
     for name in wanted:
         part = next(p for p in parts if _of(p, name))
-        moved = _moved(model, data, part) @ _twist(name)
-        z = least_squares(jac, moved)
+        moved = _moved(model, data, part) @ _twist(name)[:, None]
+        fit, left = fitted(every, moved, model.nv)
+        z = fit[:, 0]
         z[np.abs(z) < 1e-12 * np.abs(z).max(initial=0.0)] = 0.0
-        if z.any() and np.linalg.norm(jac @ z - moved) < _SAME * np.linalg.norm(moved):
+        if z.any() and np.linalg.norm(left) < _SAME * np.linalg.norm(moved):
             found[name] = z
     return found
 
@@ -117,16 +119,11 @@ def divided(names: Iterable[str]) -> tuple[list[str], list[str]]:
 
 def _parts(model: mujoco.MjModel) -> list[_Part]:
     """Return every body that a joint moves, alone and with what it carries, but not all that moves at once."""
-    moving = _moving(model)
+    moving, number, last = model.body_treeid >= 0, np.arange(model.nbody), _carried(model)
     found, hung = list[_Part](), list[_Part]()
     for body in np.flatnonzero(model.body_dofnum > 0).tolist():
-        alone = np.zeros(model.nbody, dtype=bool)
-        alone[body] = True
-        for child in range(body + 1, model.nbody):  # what is welded to a body is part of it
-            alone[child] = bool(model.body_weldid[child] == model.body_weldid[body])
-        carried = alone.copy()
-        for child in range(body + 1, model.nbody):
-            carried[child] |= carried[model.body_parentid[child]]
+        alone = model.body_weldid == model.body_weldid[body]  # what is welded to a body is part of it
+        carried = (number >= body) & (number < last[body])
         name = _body_name(model, body)
         for inside, label in ((alone, name), (carried, name + _CARRIES)):
             if not np.array_equal(inside & moving, moving) and not (label != name and np.array_equal(alone, carried)):
@@ -137,11 +134,13 @@ def _parts(model: mujoco.MjModel) -> list[_Part]:
     return [*found, *hung]
 
 
-def _moving(model: mujoco.MjModel) -> Array:
-    moves = model.body_dofnum > 0
-    for body in range(1, model.nbody):
-        moves[body] |= moves[model.body_parentid[body]]
-    return moves
+def _carried(model: mujoco.MjModel) -> Array:
+    """Return the number after that of the last body that each body carries, (nbody,): a body comes before those."""
+    last = np.arange(1, model.nbody + 1)
+    for body in range(model.nbody - 1, 0, -1):
+        bearer = model.body_parentid[body]
+        last[bearer] = max(last[bearer], last[body])
+    return last
 
 
 def _body_name(model: mujoco.MjModel, body: int) -> str:
@@ -152,30 +151,29 @@ def _body_name(model: mujoco.MjModel, body: int) -> str:
 
 
 def _moved(model: mujoco.MjModel, data: mujoco.MjData, part: _Part) -> Array:
-    """Return the velocities of all bodies that can move, per twist of a part in its frame, (6 m, 6)."""
-    moving = np.flatnonzero(_moving(model))
+    """Return the velocities of all bodies per twist of a part in its frame, (nbody, 6, 6)."""
     own = part.joint < 0
     turn = data.xmat[part.root].reshape(3, 3) if own else np.eye(3)
-    origin = data.xpos[part.root] if own else data.xanchor[part.joint]
-    moved = np.zeros((len(moving), 6, 6))
-    for k, body in enumerate(moving):
-        if part.inside[body]:
-            moved[k, :3, :3] = moved[k, 3:, 3:] = turn
-            moved[k, :3, 3:] = -rigid._cross(data.xipos[body] - origin) @ turn
-    return moved.reshape(-1, 6)
+    moved = turning(model, data, data.xpos[part.root] if own else data.xanchor[part.joint], turn)
+    moved[~(part.inside & (model.body_treeid >= 0))] = 0.0
+    return moved
 
 
 def _look(
     model: mujoco.MjModel, data: mujoco.MjData, force: Array, parts: list[_Part], largest: float
 ) -> list[_Part]:
     """Return the parts that may still be free after one more state."""
-    jac = rigid._bodies(model, data)[0]
-    inverse, left = np.linalg.pinv(jac), []
+    every, left = trees(model, data), []
+    inverses: dict[int, Array] = {}
     for part in parts:
-        moved = _moved(model, data, part)
-        z = inverse @ moved
-        part.barred.append((jac @ z - moved) / np.abs(moved).max())
-        part.work.append(force @ z / (np.abs(z).max() or 1.0))
+        own = int(model.body_treeid[part.root])
+        tree = every[own]
+        if own not in inverses:
+            inverses[own] = np.linalg.pinv(tree.jac)
+        moved = _moved(model, data, part)[tree.bodies].reshape(-1, 6)
+        z = inverses[own] @ moved
+        part.barred.append(condensed((tree.jac @ z - moved) / np.abs(moved).max()))
+        part.work.append(force[tree.coordinates] @ z / (np.abs(z).max() or 1.0))
         if singular(part.opposed(10.0 * largest))[1][-1] <= _RIGID:
             left.append(part)
     return left
@@ -257,6 +255,10 @@ class Held:
     @property
     def _core(self) -> Core:
         raise NotImplementedError
+
+    def periods(self, x: Array, values: Values) -> Array:
+        """Return a full turn for each coordinate in which one changes no force, infinity for the others, (nv,)."""
+        return rigid.full_turns(self, x, values)
 
     def rigid_modes(self, x: Array, values: Values, among: Sequence[str] | None = None) -> tuple[str, ...]:
         """Return the names of the motions that no force opposes near a state, of all or `among` some."""

@@ -15,6 +15,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from mjcont.mechanism.zeromodes.trees import condensed, fitted, trees, turning
 from mjcont.numerics.equations.algebra import least_squares, singular, solve
 from mjcont.numerics.equations.problem import Values
 
@@ -46,38 +47,26 @@ def directions(model: mujoco.MjModel, data: mujoco.MjData, names: Iterable[str])
 
     `data` holds positions after `mj_kinematics` and `mj_comPos`. A motion that the joints do not allow is left out.
     """
-    jac, moved = _bodies(model, data)
-    found = {}
+    every, moved, found = trees(model, data), _rigid(model, data), {}
     for name in names:
-        wanted = moved @ twist(name)
-        z = least_squares(jac, wanted)
+        wanted = moved @ twist(name)[:, None]
+        fit, left = fitted(every, wanted, model.nv)
+        z = fit[:, 0]
         z[np.abs(z) < _NOTHING * np.abs(z).max()] = 0.0
-        if np.linalg.norm(jac @ z - wanted) < _RIGID * np.linalg.norm(wanted) and z.any():
+        size = np.linalg.norm(wanted[model.body_treeid >= 0])
+        if np.linalg.norm(left) < _RIGID * size and z.any():
             found[name] = z
     return found
 
 
-def _bodies(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[np.ndarray, np.ndarray]:
-    """Return the velocities of all bodies that can move, per tangent coordinate and per twist: (6 m, nv), (6 m, 6)."""
-    moves = model.body_dofnum > 0
-    for body in range(1, model.nbody):
-        moves[body] |= moves[model.body_parentid[body]]
-    moving = np.flatnonzero(moves)
-    jac, moved = np.zeros((len(moving), 6, model.nv)), np.zeros((len(moving), 6, 6))
-    for k, mover in enumerate(moving):
-        mujoco.mj_jacBodyCom(model, data, jac[k, :3], jac[k, 3:], mover)
-        moved[k] = np.eye(6)
-        moved[k, :3, 3:] = -_cross(data.xipos[mover])
-    return jac.reshape(-1, model.nv), moved.reshape(-1, 6)
-
-
-def _cross(v: np.ndarray) -> np.ndarray:
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+def _rigid(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
+    """Return the velocities of all bodies per twist of the whole model, (nbody, 6, 6)."""
+    return turning(model, data, np.zeros(3), np.eye(3))
 
 
 def _stacked(barred: list[np.ndarray], work: list[np.ndarray], largest: float) -> np.ndarray:
-    """Return what opposes the six rigid motions, a row for each velocity that the joints bar and each force."""
-    return np.concatenate([*barred, np.array(work) / (largest or 1.0)])
+    """Return what opposes the six rigid motions: velocities that the joints bar, and forces."""
+    return condensed(np.concatenate([*barred, np.array(work) / (largest or 1.0)]))
 
 
 def _least(barred: list[np.ndarray], work: list[np.ndarray], largest: float) -> float:
@@ -108,11 +97,12 @@ def zero_modes(
         step = 0.1 * mechanism.state_scale * np.cos(1.0 + k + (1 + k) * np.arange(mechanism.n)) if k else None
         beside = x if step is None else mechanism.retract(x, step)
         force = mechanism.residual(beside, values)
-        jac, moved = _bodies(model, position(beside))
-        if not len(jac):
+        data = position(beside)
+        if not model.ntree:
             return ()
-        z = least_squares(jac, moved)
-        barred.append((jac @ z - moved) / np.abs(moved).max())
+        moved = _rigid(model, data)
+        z, left = fitted(trees(model, data), moved, model.nv)
+        barred.append(condensed(left / np.abs(moved[model.body_treeid >= 0]).max()))
         work.append(force @ z / (np.abs(z).max() or 1.0))
         largest = max(largest, np.abs(force).max())
         if among is None and k in _EARLY and _least(barred, work, largest) > _RIGID:

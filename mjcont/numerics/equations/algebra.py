@@ -11,9 +11,21 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from scipy import sparse
 from scipy.optimize import brentq
 
-from mjcont.numerics.equations.problem import Array
+from mjcont.numerics.equations.problem import Array, Pencil
+
+
+def dense(matrix: Any) -> Array:
+    """Return a matrix, dense or sparse, as an array."""
+    found: Array = matrix.toarray() if sparse.issparse(matrix) else matrix
+    return found
+
+
+def full(pencil: Pencil) -> Pencil:
+    """Return a pencil with all its matrices as arrays."""
+    return Pencil(*(None if m is None else dense(m) for m in (pencil.mass, pencil.damping, pencil.stiffness)))
 
 
 def solve(matrix: Array, rhs: Array) -> Array:

@@ -15,17 +15,17 @@ for the quadratic pencil P(s) = s^2 M + s C + K.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from scipy import sparse
 
+from mjcont.numerics.equations import frozen
 from mjcont.numerics.equations.algebra import singular
 from mjcont.numerics.equations.bends import REACH, bend, bends_itself, reach_of
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, row_scale
 from mjcont.numerics.equations.columns import weighted
-from mjcont.numerics.equations.differences import bilinear_gradient, directional, product, product_slopes
+from mjcont.numerics.equations.differences import bilinear_gradient, directional
 from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import ROW_GUARD, Condition, Local, System, equation_scale
@@ -81,7 +81,7 @@ class Fold(Condition):
         out = np.empty(system.n + len(system.free))
         out[: system.n] = -bilinear_gradient(local.problem, local.x, local.values, w, v)
         for i, p in enumerate(system.free):
-            slope = parameter_slope(lambda at: w @ directional(at.problem, at.x, at.values, v, 1), local, p.name)
+            slope = frozen.parameter_slope(lambda at: w @ directional(at.problem, at.x, at.values, v, 1), local, p.name)
             out[system.n + i] = -slope * p.slope(float(y[i]))
         return out[None]
 
@@ -90,17 +90,6 @@ class Fold(Condition):
         v, w, _ = self.vectors(local)
         self.b, self.c = w / np.linalg.norm(w), v / np.linalg.norm(v)
         self._cache = None
-
-
-def parameter_slope(function: Callable[[Local], Any], local: Local, name: str) -> Any:
-    """Return d function / d p, a number or an array, for a parameter, in physical units, by differences in p."""
-    bounds = local.ranges[local.wrt.index(name)] if local.ranges else None
-    rule, h = local.problem.parameter_stencil(name, local.values[name], bounds)
-    total: Any = 0.0
-    for offset, weight in zip(rule.offsets, rule.weights, strict=True):
-        values = {**local.values, name: local.values[name] + offset * h}
-        total += weight * function(Local(local.problem, local.x, values, local.wrt, local.accurate, local.ranges))
-    return total / h
 
 
 def _bend(system: System, local: Local, y: Array, v: Array) -> Array | None:
@@ -273,13 +262,11 @@ class Hopf(Condition):
         return Factored(self._bordered(local, k)).solve(rhs)[-2:]
 
     def gradient(self, local: Local, system: System, y: Array) -> Array | None:
-        """Return dg = -p' dA q over x, parameters and the auxiliary unknown, (2, n + k), by products of J with q alone.
+        """Return dg = -p' dA q over x, parameters and the auxiliary unknown, (2, n + k), by products with q alone.
 
-        None where differences of the matrices themselves are to be taken: with a mass matrix.
+        None where differences of the matrices themselves are to be taken: the problem does not tell forces of motions.
         """
         problem, n = local.problem, system.n
-        if problem.second_order:
-            return None
         at = system.place(self)
         k = self.square(y[at : at + 1]) / self.inner / self.inner
         factored = Factored(self._bordered(local, k))
@@ -287,30 +274,17 @@ class Hopf(Condition):
         right, left = factored.solve(ends[0]), np.array([factored.solve_transposed(e) for e in ends])
         q = right[: 2 * n].reshape(2, n)
         p = left[:, : 2 * n].reshape(2, 2, n) * self.rows
-        out = np.zeros((2, n + system.k))
         if bends_itself(local):
-            out[:, : n + len(system.free)] = sum(bend(local, system, y, p[:, j], q[j]) for j in range(2))
+            known: Array | None = bend(local, system, y, p[:, 0], q[0]) + bend(local, system, y, p[:, 1], q[1])
         else:
-            out[:, : n + len(system.free)] = self._by_products(local, system, y, p, q * problem.state_scale)
+            known = frozen.gradient(local, system, y, frozen.hopf_motions(q * problem.state_scale, k, self.inner), p)
+        if known is None:
+            return None
+        out = np.zeros((2, n + system.k))
+        out[:, : known.shape[1]] = known
         ahead = self._bordered(local, k + 0.5) - self._bordered(local, k - 0.5)  # it is linear in k
         rate = (self.rate / self.inner) ** 2 * float(np.cosh(y[at]))
         out[:, n + at] = -left @ ahead @ right * rate
-        return out
-
-    @staticmethod
-    def _by_products(local: Local, system: System, y: Array, p: Array, q: Array) -> Array:
-        """Return p' dJ q over (x, free parameters) by differences of f."""
-        problem, n = local.problem, system.n
-        out = np.zeros((2, n + len(system.free)))
-        for j in range(2):
-            out[:, :n] += p[:, j] @ product_slopes(problem, local.x, local.values, q[j]).T
-
-        def products(beside: Local) -> Array:
-            return np.array([product(problem, beside.x, beside.values, v) for v in q])
-
-        for i, free in enumerate(system.free):
-            moved = parameter_slope(products, local, free.name) * free.slope(float(y[i]))
-            out[:, n + i] = np.einsum("ijk,jk->i", p, moved)
         return out
 
     def square(self, aux: Array) -> float:

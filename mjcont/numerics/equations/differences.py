@@ -212,23 +212,6 @@ def _mixed_steps(dv: Array, scale: Array, step: float) -> Array:
     return np.concatenate([e + dv, e - dv, -e + dv, -e - dv])
 
 
-def product_slopes(problem: Equations, x: Array, values: Values, v: Array, step: float = 3e-4) -> Array:
-    """Return the derivatives of (df/dx) v in each scaled coordinate, (n, n_f), where f is smooth: 4 n evaluations."""
-    length = length_of(v, problem.typical)
-    rows = problem.residuals(x, values, _mixed_steps((step / length) * v, problem.typical, step))
-    pp, pm, mp, mm = rows.reshape(4, problem.n, -1)
-    found: Array = (pp - pm - mp + mm) / (4.0 * step * (step / length))
-    return found
-
-
-def product(problem: Equations, x: Array, values: Values, v: Array, step: float = 3e-4) -> Array:
-    """Return (df/dx) v to second order, (n_f,): two evaluations."""
-    h = step / length_of(v, problem.typical)
-    ahead, back = problem.residuals(x, values, h * np.array([v, -v]))
-    found: Array = (ahead - back) / (2.0 * h)
-    return found
-
-
 def _one_sided_gradient(
     problem: Equations,
     x: Array,

@@ -13,8 +13,9 @@ from __future__ import annotations
 import numpy as np
 
 from mjcont.numerics.equations.bends import bend, bends_itself
-from mjcont.numerics.equations.defining import Fold, parameter_slope, pencil_of
+from mjcont.numerics.equations.defining import Fold, pencil_of
 from mjcont.numerics.equations.differences import second_form
+from mjcont.numerics.equations.frozen import parameter_slope
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import Condition, Local, System
 

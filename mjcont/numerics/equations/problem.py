@@ -47,10 +47,10 @@ class Linearization:
 
 @dataclass(frozen=True, slots=True)
 class Pencil:
-    """Matrices of s^2 M + s C + K at one equilibrium; `mass` is None for a first-order system (then C = I)."""
+    """Matrices of s^2 M + s C + K at one equilibrium, all sparse or none; no mass says a first-order system, C = I."""
 
-    mass: Array | None
-    damping: Array | None
+    mass: Matrix | None
+    damping: Matrix | None
     stiffness: Matrix
 
 
@@ -123,6 +123,7 @@ class Equations(ABC):
     5. On a curved manifold override `retract`, `difference`, `retract_each` and `difference_each`, together.
     6. Override capabilities only where they hold; each default says what the numerics do without it:
 
+       - `left_forces`: gradients of Hopf conditions by products with their null vectors;
        - `passive` (and `pencils`): stability by the inertia of K, eigenvalues when they are read;
        - `one_pattern`: a sparse df/dx is extrapolated to the next point;
        - `side_by_side`, `linearize_along`: long steps with points inside, rows between points;
@@ -212,6 +213,17 @@ class Equations(ABC):
         return ends - starts
 
     # -- capabilities, with what holds without them --------------------------------------------------------------
+
+    def left_forces(
+        self, x: Array, values: Values, steps: Array, velocities: Array, accelerations: Array
+    ) -> Array | None:
+        """Return what motions leave of the equations, f - M a, at x moved by steps (m, n), shape (m, n).
+
+        They have velocities and accelerations (m, n) there; of a first-order problem f - v is left. None where that is
+        not told, as by a problem whose M, C and K are not those of its forces alone.
+        """
+        del accelerations
+        return None if self.second_order else self.residuals(x, values, steps) - velocities
 
     @property
     def passive(self) -> bool:

@@ -174,10 +174,10 @@ def _implicit(system: System, local: Local, mass: Any, dt: float) -> Array:
 
 def _mass_like(local: Local) -> Any:
     """Return the mass matrix, or the identity for a first-order system (sparse where its Jacobian is)."""
-    if sparse.issparse(local.raw_jac):
-        return sparse.identity(local.problem.n, format="csc")
-    pencil = local.pencil
-    return np.eye(local.problem.n) if pencil.mass is None else pencil.mass
+    if local.problem.second_order:
+        return local.pencil.mass
+    n = local.problem.n
+    return sparse.identity(n, format="csc") if sparse.issparse(local.raw_jac) else np.eye(n)
 
 
 def _first_dt(local: Local, mass: Any) -> float:

@@ -78,7 +78,17 @@ class Local:
         """Let matrices go: they are computed again where somebody asks for them."""
         self._residual, self._lin, self._jac, self._pencil = self.f, None, None, None
 
-    def _linearize(self) -> Linearization:
+    @property
+    def jac(self) -> Any:
+        """df/dx times the state scale: derivatives in scaled unknowns, (n, n)."""
+        if self._jac is None:
+            jac, scale = self.linearization.jac, self.problem.state_scale
+            self._jac = jac * scale if isinstance(jac, np.ndarray) else scaled(jac, columns=scale)
+        return self._jac
+
+    @property
+    def linearization(self) -> Linearization:
+        """f and its derivatives, as the problem returns them."""
         if self._lin is None:
             self._lin = self.problem.linearize(
                 self.x, self.values, self.wrt, accurate=self.accurate, ranges=self.ranges
@@ -86,27 +96,14 @@ class Local:
         return self._lin
 
     @property
-    def jac(self) -> Any:
-        """df/dx times the state scale: derivatives in scaled unknowns, (n, n)."""
-        if self._jac is None:
-            jac, scale = self._linearize().jac, self.problem.state_scale
-            self._jac = jac * scale if isinstance(jac, np.ndarray) else scaled(jac, columns=scale)
-        return self._jac
-
-    @property
-    def linearization(self) -> Linearization:
-        """What the problem returned for it."""
-        return self._linearize()
-
-    @property
     def raw_jac(self) -> Any:
         """df/dx in physical units, (n, n)."""
-        return self._linearize().jac
+        return self.linearization.jac
 
     @property
     def par(self) -> Array:
         """df/dp in physical units, (n, k)."""
-        return self._linearize().par
+        return self.linearization.par
 
     @property
     def pencil(self) -> Pencil:

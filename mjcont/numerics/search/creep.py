@@ -15,9 +15,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
-from mjcont.numerics.equations.algebra import eigenvectors, solve
+from mjcont.numerics.equations.algebra import dense, eigenvectors, full, solve
 from mjcont.numerics.equations.problem import Array, Equations, Values
 from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.system import Local
@@ -40,9 +39,8 @@ class Crept:
 
 def rates(local: Local) -> tuple[Array, Array, Array]:
     """Return the eigenvalues of A = M^-1 df/dx, its eigenvectors in columns, and M^-1 f in their basis."""
-    jac: Any = local.raw_jac
-    jac = jac.toarray() if sparse.issparse(jac) else jac
-    mass = None if not local.problem.second_order else local.pencil.mass
+    jac = dense(local.raw_jac)
+    mass = None if not local.problem.second_order else full(local.pencil).mass
     a, g = (jac, local.f) if mass is None else (solve(mass, jac), solve(mass, local.f))
     values, vectors = eigenvectors(a)
     return values, vectors, solve(vectors, g.astype(complex))

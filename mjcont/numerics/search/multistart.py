@@ -10,12 +10,10 @@ from the singular values of the scaled D J, and has converged when Newton's step
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from scipy import sparse
 
-from mjcont.numerics.equations.algebra import singular
+from mjcont.numerics.equations.algebra import dense, singular
 from mjcont.numerics.equations.differences import SECOND_ORDER, jacobian_steps
 from mjcont.numerics.equations.problem import Array, Equations, Values
 
@@ -89,7 +87,7 @@ class Many:
             for i, x in enumerate(states):
                 if np.all(np.isfinite(x)):
                     lin = self.problem.linearize(x, self.values, ())
-                    f[i], jac[i] = lin.f, _dense(lin.jac) * scale
+                    f[i], jac[i] = lin.f, dense(lin.jac) * scale
             return f, jac
         offsets = np.concatenate([np.zeros((1, n)), jacobian_steps(scale, SECOND_ORDER)])
         size = max(_ROWS // len(offsets), 1)
@@ -102,11 +100,6 @@ class Many:
             f[i : i + size] = rows[:, 0]
             jac[i : i + size] = np.swapaxes(rows[:, 1 : n + 1] - rows[:, n + 1 :], 1, 2) / (2.0 * SECOND_ORDER.step)
         return f, jac
-
-
-def _dense(matrix: Any) -> Array:
-    found: Array = matrix.toarray() if sparse.issparse(matrix) else matrix
-    return found
 
 
 def shortened(steps: Array) -> Array:

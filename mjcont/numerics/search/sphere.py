@@ -10,7 +10,7 @@ from itertools import product
 
 import numpy as np
 
-from mjcont.numerics.equations.algebra import singular
+from mjcont.numerics.equations.algebra import dense, singular
 from mjcont.numerics.equations.bordered import Factored
 from mjcont.numerics.equations.newton import length, matrix_with_row
 from mjcont.numerics.equations.problem import Array
@@ -44,7 +44,7 @@ def ways_through(system: System, x: Array, y: Array, vanishing: int, radius: flo
 def _around(system: System, x: Array, y: Array, vanishing: int) -> Array:
     """Return unit vectors in the kernel of [J f_p] in all directions, (m, n + 1)."""
     jac = system.jacobian(system.local(x, y), y)
-    matrix = jac if isinstance(jac, np.ndarray) else jac.toarray()
+    matrix = dense(jac)
     if not np.isfinite(matrix).all():
         return np.zeros((0, matrix.shape[1]))
     kernel = singular(matrix)[2][-(min(vanishing, _MOST_ZEROS) + 1) :]

@@ -267,6 +267,12 @@ def _factored(matrix: Any, shift: float) -> tuple[Any, int] | None:
     return None
 
 
+def positive_count(matrix: Any) -> int | None:
+    """Return how many eigenvalues of a sparse symmetric matrix are positive, from its pivots; None where they fail."""
+    told = _factored(matrix, 0.0)
+    return None if told is None else told[1]
+
+
 def _balanced(jac: Any) -> Any:
     """Return D J D^-1, D diagonal, with rows about as large as columns: nearer to its symmetric part.
 

@@ -14,11 +14,20 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse.linalg import ArpackError, LinearOperator, eigs, splu
 
-from mjcont.numerics.equations.algebra import cholesky, eigenvalues, inverses, singular, solve, symmetric_eigenvalues
+from mjcont.numerics.equations.algebra import (
+    cholesky,
+    eigenvalues,
+    full,
+    inverses,
+    singular,
+    solve,
+    symmetric_eigenvalues,
+)
 from mjcont.numerics.equations.differences import SECOND_ORDER
 from mjcont.numerics.equations.problem import Array, Pencil
-from mjcont.numerics.spectra.large import NOISE, SMALL, rightmost
+from mjcont.numerics.spectra.large import NEAREST, NOISE, SMALL, positive_count, rightmost
 
 STABLE, UNSTABLE, MARGINAL = "stable", "unstable", "marginal"
 _SYMMETRY_NOISE = 1e-8
@@ -27,6 +36,8 @@ _ROUNDING = 1e-13
 _EIGENSOLVER = 1e-15
 # noise of eigenvalues of a first-order system, in parts of the largest entry and of themselves
 _FIRST_ORDER, _RELATIVE = 1e-11, 1e-12
+# a shift beside zero in parts of the slowest rate that n equal springs and masses in a row have
+_BESIDE = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +106,7 @@ def spectrum(pencil: Pencil, scatter: Callable[[], Array] | None = None) -> Spec
         is measured instead of bounded: stiff bushes make f noisy, but hardly along the mechanism's own mode.
     """
     if sparse.issparse(pencil.stiffness):
-        return _sparse_spectrum(pencil.stiffness)
+        return _sparse_spectrum(pencil.stiffness) if pencil.mass is None else _sparse_motion(pencil)
     if pencil.mass is None or pencil.damping is None:
         jac = -pencil.stiffness[None]
         return first_order_spectra(jac, eigenvalues(jac))[0]
@@ -175,6 +186,8 @@ def companion(mass: Array, damping: Array, stiffness: Array) -> Array:
 
 def conservative_spectra(pencils: Sequence[Pencil]) -> list[Spectrum]:
     """Return the spectra of pencils that are known to have a symmetric K and a symmetric, semidefinite C."""
+    if any(sparse.issparse(p.stiffness) for p in pencils):
+        return [spectrum(p) for p in pencils]
     k = np.array([p.stiffness for p in pencils])
     mass, damping = (np.array([getattr(p, name) for p in pencils]) for name in ("mass", "damping"))
     return _conservative(mass, damping, 0.5 * (k + k.transpose(0, 2, 1)))
@@ -250,3 +263,53 @@ def _sparse_spectrum(stiffness: Any) -> Spectrum:
     return replace(s, stability=state, n_unstable=found.unstable, conservative=found.symmetric, complete=False,
                    proven=found.proven)
 
+
+def _sparse_motion(pencil: Pencil) -> Spectrum:
+    """Count by the inertia of K where that decides, with the slowest eigenvalues; else take the matrices in full."""
+    mass, damping, stiffness = pencil.mass, pencil.damping, pencil.stiffness
+    assert mass is not None and damping is not None
+    size, n = abs(stiffness).max(), stiffness.shape[0]
+    if not np.isfinite(size):
+        return _undefined(min(NEAREST, 2 * n))
+    if n <= SMALL:
+        return spectrum(full(pencil))
+    slight = _ROUNDING * abs(damping).max()
+    drained = not slight or positive_count(-damping - slight * sparse.identity(n, format="csc")) == 0
+    if drained and symmetric(stiffness) and symmetric(damping):
+        noise = DIFFERENCE_NOISE * size / mass.diagonal().max() * mass
+        k = 0.5 * (stiffness + stiffness.T)
+        negative, below = positive_count(-k - noise), positive_count(noise - k)
+        ev = _slowest(mass, damping, k)
+        if negative is not None and below is not None and ev is not None:
+            rounding = np.full(len(ev), _ROUNDING * float(np.abs(ev).max()))
+            touching = below > negative or np.any(np.abs(ev.real) <= rounding)
+            state = UNSTABLE if negative else MARGINAL if touching else STABLE
+            return Spectrum(ev, state, negative, rounding, True, complete=False)
+    return spectrum(full(pencil))
+
+
+def _slowest(mass: Any, damping: Any, stiffness: Any) -> Array | None:
+    """Return the eigenvalues of s^2 M + s C + K nearest zero, by inverse iteration of its first-order form.
+
+    With z = (x, s x) the form is (A - s B) z = 0, and (A - r B)^-1 B (a, b) = (u, a + r u), where u solves
+    P(r) u = -M b - (C + r M) a. None where that fails.
+    """
+    n = stiffness.shape[0]
+    shift = _BESIDE * float(np.sqrt(abs(stiffness).max() / mass.diagonal().max())) / n
+    inner = (damping + shift * mass).tocsr()
+    try:
+        factors = splu((stiffness + shift * damping + shift**2 * mass).tocsc())
+
+        def inverse(z: Array) -> Array:
+            u = -factors.solve(mass @ z[n:] + inner @ z[:n])
+            return np.concatenate([u, z[:n] + shift * u])
+
+        start = np.cos(np.arange(2.0 * n))
+        found = eigs(
+            LinearOperator((2 * n, 2 * n), inverse, dtype=float), k=NEAREST, v0=start, return_eigenvectors=False
+        )
+    except (ArpackError, RuntimeError):  # no convergence, or exactly singular
+        return None
+    ev: Array = shift + 1.0 / found
+    order = np.lexsort((ev.imag, -ev.real))
+    return np.asarray(ev[order])

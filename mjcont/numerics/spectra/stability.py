@@ -10,10 +10,12 @@ from collections.abc import Collection, Sequence
 from functools import partial
 
 import numpy as np
+from scipy import sparse
 
 from mjcont.numerics.equations.algebra import symmetric_eigenvalues
 from mjcont.numerics.equations.problem import Array, Equations, Range, Values
 from mjcont.numerics.equations.system import Local
+from mjcont.numerics.spectra.large import positive_count
 from mjcont.numerics.spectra.spectrum import (
     MARGINAL,
     UNSTABLE,
@@ -68,7 +70,8 @@ def negative_stiffness(point: CurvePoint) -> int | None:
     def count() -> int | None:
         if not (point.local.problem.passive and symmetric(point.local.raw_jac)):
             return None
-        return int(np.count_nonzero(symmetric_eigenvalues(point.local.raw_jac) > 0.0))
+        jac = point.local.raw_jac
+        return positive_count(jac) if sparse.issparse(jac) else int(np.count_nonzero(symmetric_eigenvalues(jac) > 0.0))
 
     return NEGATIVE.of(point, count)
 
