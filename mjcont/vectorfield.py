@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import copy
-import threading
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property, partial
 from typing import Any, Self
 
 import numpy as np
-from scipy import sparse
 
 from mjcont.arguments import checked
-from mjcont.errors import FunctionError, MjcontError, ParameterError, leaves_domain, unknown_name
-from mjcont.fields.functions import as_columns, beside, check_columns, merged, raised, takes_time
-from mjcont.fields.together import linearized
-from mjcont.numerics.equations.clock import TimeUp, check
+from mjcont.errors import MjcontError, ParameterError, leaves_domain, unknown_name
+from mjcont.fields.checks import Held
+from mjcont.fields.derivatives import Derivatives
+from mjcont.fields.foreign import offered
+from mjcont.fields.functions import Evaluated, raised, takes_time
+from mjcont.fields.parameters import flattened
+from mjcont.fields.together import SideBySide
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
     PARAMETER,
@@ -24,13 +24,11 @@ from mjcont.numerics.equations.differences import (
     kept_within,
 )
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
-from mjcont.results.model import Model
 from mjcont.results.quantities import (
     Observable,
     Parameter,
     check_values,
     default_bounds,
-    finite,
     finite_array,
     finite_pair,
     own_observable,
@@ -43,30 +41,39 @@ _FAR, _LEAST = 20.0, 1e-3
 _NOTHING = 1e-8
 
 
-class VectorField(Model):
+class VectorField(SideBySide):
     """The first-order system u' = f(u, p), or u' = f(u, p, t) with a period in t, with named parameters.
 
     Parameters
     ----------
     function : callable
-        `function(u, p)` returns (n,); `u` is (n,), `p` a mapping of parameter names to floats. It may take the time
+        `function(u, p)` returns (n,); `u` is (n,), `p` a mapping of parameter names to numbers. It may take the time
         as a third argument, in s: with a `period` it is forced, without one t is 0 wherever it is evaluated. A
         `vectorized` one also takes many states at once, as the columns of u (n, m), and returns (n, m); a parameter or
-        the time is then a number, or (m,) where it differs between the states.
+        the time is then a number, or (m,) where it differs between the states. A function of CasADi or one that
+        `jax.jit` returns brings all that follows, `vectorized` included (docs/fields.md).
     u0 : array_like, (n,)
         Default start.
-    parameters : mapping of str to float
-        Names and default values.
+    parameters : mapping of str to float or (k,) array
+        Names and default values. An array stands for k parameters, `name[0]`, `name[1]`, ...; the function sees it
+        whole, `p[name]` (k,), or (k, m) for many states at once.
     jacobian : callable, optional
-        `jacobian(u, p)` returns df/du, (n, n), dense or scipy.sparse; centred differences otherwise. It is given one
-        state, (n,), at a time.
+        `jacobian(u, p)` returns df/du, (n, n), dense, scipy.sparse, or an operator with `matvec`, whose products are
+        put into a dense matrix; centred differences otherwise. It is given one state, (n,), at a time.
+    dfdp : callable, optional
+        `dfdp(u, p)` returns df/dp: a mapping of names to (n,), (n, k) for an array, or an array (n, number of
+        parameters) in their order. Those that a mapping leaves out are differences.
+    second, third : callable, optional
+        `second(u, p, v, w)` returns D2f[v, w], `third(u, p, v, w, z)` D3f[v, w, z], both (n,): normal forms, gradients
+        of defining systems and sensitivities use them instead of differences. All derivatives are held against
+        differences at the first point (see `check_derivatives`).
     vectorized : bool, optional
         Whether `function` takes states as columns. The first time that it is given some, three are also evaluated one
         by one, and compared.
     names : sequence of str, optional
         Names of the components of u, by which they are observables; default u[0], u[1], ...
     units : mapping of str to str, optional
-        Units of parameters and components, by name.
+        Units of parameters and components, by name; an array's for all its entries.
     scale : array_like, (n,), optional
         Typical size of each component, for arclength and difference steps. Without it the verbs that follow curves
         start from 1 and take the sizes that the components are found to have, where these are far from it.
@@ -94,9 +101,12 @@ class VectorField(Model):
         self,
         function: Callable[..., Any],
         u0: Any,
-        parameters: Mapping[str, float],
+        parameters: Mapping[str, Any],
         *,
         jacobian: Callable[[Array, Values], Any] | None = None,
+        dfdp: Callable[[Array, Values], Any] | None = None,
+        second: Callable[[Array, Values, Array, Array], Any] | None = None,
+        third: Callable[[Array, Values, Array, Array, Array], Any] | None = None,
         names: Sequence[str] | None = None,
         units: Mapping[str, str] | None = None,
         scale: Any = None,
@@ -106,32 +116,29 @@ class VectorField(Model):
         energy: Callable[[Array, Values], float] | None = None,
         vectorized: bool = False,
     ) -> None:
-        self.name, self.period, self.energy = name, period, energy
-        self.timed, self.vectorized, self._compared = takes_time(function), vectorized, False
-        self.n = np.size(u0)
+        self.name, self.n = name, np.size(u0)
         if self.n == 0:
             raise ParameterError("u0 is empty: a vector field needs at least one unknown")
         self.u0 = finite_array("u0", np.atleast_1d(u0), (self.n,))
-        self.function, self.jacobian = function, jacobian
+        default, self._arrays = flattened(parameters)
+        self.period, self.energy = self._arrays.whole(period), self._arrays.whole(energy)
+        timed = takes_time(function)
+        own = {"jacobian": jacobian, "dfdp": dfdp, "second": second, "third": third}
+        foreign = offered(function, name, self.n, tuple(default), self._arrays, timed)
+        if foreign is not None:
+            function, timed, vectorized = foreign.function, foreign.timed, True
+            own = {what: getattr(foreign, what) if each is None else each for what, each in own.items()}
+        self._given = Derivatives(name, self.n, tuple(default), self._arrays, **own)
+        self.timed, self.vectorized = timed, vectorized
+        # which derivatives were held against differences already; shared with copies of another scale
+        self._held_against = set[str]()
         self.state_scale = np.ones(self.n) if scale is None else finite_array("scale", scale, (self.n,))
         if not np.all(self.state_scale > 0.0):
             raise ParameterError(f"scale must be positive, got {self.state_scale}")
         self.follows_scale = scale is None
-        # by thread: what one computes costs what that one evaluates; shared with copies of another scale
-        self._counts: dict[int, int] = {}
-        units, bounds = units or {}, bounds or {}
-        for k in bounds:
-            if k not in parameters:
-                raise unknown_name("parameter", k, parameters)
-        default = {k: finite(f"parameter '{k}': the value", v) for k, v in parameters.items()}
-        own = {k: finite_pair(f"bounds of {k}", b) for k, b in bounds.items()}
-        self.parameters = {
-            k: Parameter(k, units.get(k, ""), v, own.get(k, default_bounds(v)), "field") for k, v in default.items()
-        }
-        for parameter in self.parameters.values():
-            parameter.check(parameter.value)
-        if not np.all((self.state_scale > 0) & np.isfinite(self.state_scale)):
-            raise ParameterError(f"scale: typical sizes must be positive numbers, got {self.state_scale.tolist()}")
+        self._f = Evaluated(name, function, self.n, timed, vectorized, self._arrays, self.state_scale)
+        units = self._arrays.spread(units or {}, default)
+        self.parameters = self._declared(default, units, self._arrays.spread(bounds or {}, default))
         labels = list(names) if names is not None else [f"u[{i}]" for i in range(self.n)]
         if len(labels) != self.n:
             raise ParameterError(f"names: expected {self.n} names for the components of u, got {len(labels)}")
@@ -142,6 +149,20 @@ class VectorField(Model):
         }
         self.observables = told_apart(components, self.parameters)
         self.keyframes: dict[str, Array] = {}
+
+    @staticmethod
+    def _declared(
+        default: Mapping[str, float], units: Mapping[str, str], bounds: Mapping[str, tuple[float, float]]
+    ) -> dict[str, Parameter]:
+        for k in bounds:
+            if k not in default:
+                raise unknown_name("parameter", k, default)
+        own = {k: finite_pair(f"bounds of {k}", b) for k, b in bounds.items()}
+        ranges = {k: own.get(k, default_bounds(v)) for k, v in default.items()}
+        found = {k: Parameter(k, units.get(k, ""), v, ranges[k], "field") for k, v in default.items()}
+        for parameter in found.values():
+            parameter.check(parameter.value)
+        return found
 
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the defaults for the others."""
@@ -176,7 +197,7 @@ class VectorField(Model):
     @property
     def evaluations(self) -> int:
         """Evaluations of the function so far, by this thread."""
-        return self._counts.get(threading.get_ident(), 0)
+        return self._f.count
 
     # -- the problem -----------------------------------------------------------------------------------------
 
@@ -186,81 +207,15 @@ class VectorField(Model):
 
     def rate(self, x: Array, values: Values, time: float) -> Array:
         """Return f at a time, in s, (n,), as `residual`."""
-        check()
-        self._count(1)
-        try:
-            found = np.array(self.function(x, values, time) if self.timed else self.function(x, values), dtype=float)
-        except MjcontError:
-            raise
-        except Exception as error:
-            if leaves_domain(error):  # ends a curve there, with what came before
-                return np.full(self.n, np.nan)
-            raise raised(f"the function of {self.name}", error) from error
-        if found.size != self.n:
-            raise FunctionError(f"the function of {self.name} returned shape {found.shape} for {self.n} unknowns: "
-                                f"expected ({self.n},)")
-        return found.reshape(self.n)
-
-    def _count(self, evaluations: int) -> None:
-        thread = threading.get_ident()
-        self._counts[thread] = self._counts.get(thread, 0) + evaluations
+        return self._f.rate(x, values, time)
 
     def rates(self, states: Array, values: Sequence[Values], times: Sequence[float]) -> Array:
         """Return f at states (m, n), each with its own parameter values and time in s, (m, n), as `rate` does."""
-        if self.vectorized and len(states):
-            own = np.array(times, dtype=float)
-            return self.rates_together(states, merged(values), own if np.ptp(own) else float(own[0]))
-        function, timed, found = self.function, self.timed, []
-        try:
-            for u, p, t in zip(states, values, times, strict=True):
-                check()
-                value = function(u, p, t) if timed else function(u, p)
-                # the user may fill one array, or one list, again and again
-                found.append(value.copy() if isinstance(value, np.ndarray) else tuple(value))
-            rows = np.array(found, dtype=float)
-        except TimeUp:
-            raise
-        except Exception:  # one by one, to see which has no value
-            rows = np.empty(0)
-        if rows.shape != states.shape:
-            return np.array([self.rate(u, p, t) for u, p, t in zip(states, values, times, strict=True)])
-        self._count(len(states))
-        return rows
+        return self._f.rates(states, values, times)
 
     def rates_together(self, states: Array, values: Mapping[str, Any], times: float | Array = 0.0) -> Array:
-        """Return f at states (m, n) by one call of a vectorized function, (m, n), as `rate` does.
-
-        Parameter values and times are numbers, or (m,) where they differ.
-        """
-        if not self._compared:
-            self._compare(states[0], values, times)
-            self._compared = True
-        return self._columns(states, values, times)
-
-    def _columns(self, states: Array, values: Mapping[str, Any], times: float | Array) -> Array:
-        check()
-        what, m = f"the function of {self.name}", len(states)
-        columns = np.array(states.T)  # the user's own
-        try:
-            found = self.function(columns, values, times) if self.timed else self.function(columns, values)
-        except MjcontError:
-            raise
-        except Exception as error:
-            if not leaves_domain(error):
-                raise raised(f"{what}, declared vectorized,", error, f" for u of shape {columns.shape}") from error
-            return np.array([
-                self.rate(u, {k: _entry(v, i) for k, v in values.items()}, _entry(times, i))
-                for i, u in enumerate(states)
-            ])
-        self._count(m)
-        return as_columns(what, found, self.n, m)
-
-    def _compare(self, x: Array, values: Mapping[str, Any], times: float | Array) -> None:
-        """Raise a FunctionError if a function that is said to be vectorized is not."""
-        states, own = beside(x, self.state_scale), {k: _entry(v, 0) for k, v in values.items()}
-        single = np.array([self.rate(u, own, _entry(times, 0)) for u in states])
-        many = {k: np.full(len(states), v) for k, v in own.items()}
-        check_columns(f"the function of {self.name}", self._columns(states, many, _entry(times, 0)), single)
+        """Return f at states (m, n) by one call of a vectorized function, (m, n), as `rate` does."""
+        return self._f.together(states, values, times)
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x plus each row of `steps`, (m, n)."""
@@ -271,73 +226,104 @@ class VectorField(Model):
     ) -> Linearization:
         """Return f, df/du and df/dp (always by fourth-order differences where no Jacobian is given)."""
         del accurate
-        if self.vectorized:
-            columns = {name: np.array([values[name]]) for name in wrt}
-            within = dict(zip(wrt, ranges or [None] * len(wrt), strict=True))
-            return Linearization(*(part[0] for part in self._linearized(x[None], values, columns, within)))
+        if self.differenced:
+            return self.by_one_call(x, values, wrt, ranges)
         f = self.residual(x, values)
         if self.jacobian is not None:
-            jac = self._own_jacobian(self.jacobian, x, values)
+            jac = self._own_jacobian(x, values)
         else:
             steps = jacobian_steps(self.state_scale, FOURTH_ORDER)
             jac = jacobian_from_rows(self.residuals(x, values, steps), self.state_scale, FOURTH_ORDER)
-        par = np.empty((self.n, len(wrt)))
+        own, par = self._own_slopes(x, values, wrt), np.empty((self.n, len(wrt)))
         for k, name in enumerate(wrt):
+            if name in own:
+                par[:, k] = own[name]
+                continue
             rule, h = self.parameter_stencil(name, values[name], ranges[k] if ranges else None)
             rows = [self.residual(x, {**values, name: values[name] + o * h}) if o else f for o in rule.offsets]
             par[:, k] = np.asarray(rule.weights) @ np.array(rows) / h
         return Linearization(f, jac, par)
 
-    # -- many states side by side ------------------------------------------------------------------------------
+    # -- derivatives of the user's own -------------------------------------------------------------------------
 
-    def side_by_side(self, name: str) -> bool:
-        """Whether the function takes many states at once, and matrices are dense."""
-        del name
-        return self.vectorized and not self._sparse
+    @property
+    def jacobian(self) -> Callable[..., Any] | None:
+        """The user's df/du, as it was given."""
+        return self._given.jacobian
 
-    @cached_property
-    def _sparse(self) -> bool:
-        """Whether the user's Jacobian is sparse, as it is at the start."""
-        own = self.jacobian
-        return own is not None and sparse.issparse(self._own_jacobian(own, self.u0, self.values()))
-
-    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return f at states (m, n), a parameter having a value of its own in each (m,), shape (m, n)."""
-        if not self.vectorized:
-            return super().residuals_along(states, values, name, column)
-        return self.rates_together(states, {**values, name: column})
-
-    def linearize_along(
-        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
-    ) -> tuple[Array, Array, Array] | None:
-        """Return f (m, n), df/du (m, n, n) and df/dp (m, n) at such states; None where side by side gains nothing."""
-        if not self.side_by_side(name):
-            return None
-        f, jac, par = self._linearized(states, values, {name: column}, {name: bounds})
-        return f, jac, par[:, :, 0]
-
-    def _linearized(
-        self, states: Array, values: Values, columns: Mapping[str, Array], ranges: Mapping[str, Range | None]
-    ) -> tuple[Array, Any, Array]:
-        """Return f, df/du and df/dp at states of a vectorized field, as `together.linearized` does."""
-        given, own = (self.rates_together, self.parameter_stencil, self.state_scale), self.jacobian
-        return linearized(*given, states, values, columns, ranges, partial(self._own_jacobian, own) if own else None)
-
-    def _own_jacobian(self, function: Callable[[Array, Values], Any], x: Array, values: Values) -> Any:
+    def _own_jacobian(self, x: Array, values: Values) -> Any:
         """Return the user's df/du, NaN where it overflows or leaves its domain."""
-        try:
-            jac = function(x, values)
-            jac = sparse.csc_matrix(jac, dtype=float) if sparse.issparse(jac) else np.array(jac, dtype=float)
-        except MjcontError:
-            raise
-        except Exception as error:
-            if leaves_domain(error):
-                return np.full((self.n, self.n), np.nan)
-            raise raised(f"the jacobian of {self.name}", error) from error
-        if jac.shape != (self.n, self.n):
-            raise FunctionError(f"the jacobian of {self.name} returned shape {jac.shape} for {self.n} unknowns: "
-                                f"expected {(self.n, self.n)}")
-        return jac
+        matrix = self._given.matrix(x, self._arrays.seen(values))
+        if self._first("jacobian"):
+            self._held(x, values).jacobian(matrix)
+        return matrix
+
+    def _own_slopes(self, x: Array, values: Values, wrt: Sequence[str]) -> dict[str, Array]:
+        """Return df/dp for those parameters for which the user gave it."""
+        if self._given.dfdp is None or not wrt:
+            return {}
+        slopes = self._given.slopes(x, self._arrays.seen(values))
+        for name in wrt:
+            if name in slopes and self._first(f"dfdp {name}"):
+                self._check_slope(x, values, name, slopes[name])
+        return slopes
+
+    def derivative_along(self, x: Array, values: Values, *vectors: Array) -> Array | None:
+        """Return the derivative of f along one, two or three vectors, (n,), where the user gave it."""
+        if len(vectors) == 1:
+            return None if self.jacobian is None else self._given.product(x, self._arrays.seen(values), vectors[0])
+        found = self._given.form(x, self._arrays.seen(values), *vectors)
+        if found is not None and self._first(f"form {len(vectors)}"):
+            self._held(x, values).form(len(vectors))
+        return found
+
+    @checked
+    def check_derivatives(self, u: Any = None, values: Mapping[str, float] | None = None) -> None:
+        """Hold every derivative that was given against differences of f: each column and parameter, and two forms.
+
+        At the first point of a curve products alone are looked at, which cost a few evaluations.
+
+        Parameters
+        ----------
+        u : array_like, (n,), optional
+            The state; u0 if it is not given.
+        values : mapping of str to float, optional
+            Parameter values; the defaults for the others.
+
+        Raises
+        ------
+        FunctionError
+            If an entry is off by more than differences leave open; the message names it, with both values.
+        """
+        x, p = self.start_state(state=u), self.values(values)
+        with np.errstate(all="ignore"):
+            held = self._held(x, p)
+            if self.jacobian is not None:
+                matrix = self._given.matrix(x, held.p)
+                for j in range(self.n):
+                    held.column(matrix, j)
+            for name, slope in (self._given.slopes(x, held.p) if self._given.dfdp is not None else {}).items():
+                self._check_slope(x, p, name, slope)
+            for order, turn in ((2, 0), (2, 1), (3, 0), (3, 1)):
+                held.form(order, turn)
+
+    def _first(self, what: str) -> bool:
+        """Whether a derivative is not yet held against differences; it counts as such from now on."""
+        first = what not in self._held_against
+        self._held_against.add(what)
+        return first
+
+    def _held(self, x: Array, values: Values) -> Held:
+        labels = [label for label, _ in self.state_labels]
+        seen = self._arrays.seen(values)
+        return Held(self._given, x, seen, labels, self.state_scale, lambda steps: self.residuals(x, values, steps))
+
+    def _check_slope(self, x: Array, values: Values, name: str, slope: Array) -> None:
+        def ray(changes: Array) -> Array:
+            rows = [{**values, name: values[name] + float(t)} for t in changes]
+            return self.rates(np.tile(x, (len(rows), 1)), rows, [0.0] * len(rows))
+
+        self._held(x, values).slope(name, slope, ray, self.parameter_stencil(name, values[name])[1])
 
     def parameter_stencil(self, name: str, value: float, bounds: Range | None = None) -> tuple[Stencil, float]:
         """Return a fourth-order rule within bounds and a step relative to the value, or to the bounds near zero."""
@@ -355,16 +341,24 @@ class VectorField(Model):
         return self.residuals(x, values, steps)
 
     @property
+    def differenced(self) -> bool:
+        """Whether all derivatives are differences of a vectorized function."""
+        return self.vectorized and self.jacobian is None and self._given.dfdp is None
+
+    @property
     def own_jacobian(self) -> bool:
         """Whether the user gave one."""
-        return self.jacobian is not None
+        return self._given.jacobian is not None
 
     # -- observables -----------------------------------------------------------------------------------------
 
     @checked
     def observe(self, name: str, function: Callable[[Array, Values], float], unit: str = "") -> None:
         """Add an observable computed by `function(u, p)`."""
-        self.observables[name] = own_observable(name, unit, lambda values, x: function(x, values), self.parameters)
+        seen = self._arrays.seen
+        self.observables[name] = own_observable(
+            name, unit, lambda values, x: function(x, seen(values)), self.parameters
+        )
 
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables for states (m, n), shape (m, number of names)."""
@@ -387,11 +381,6 @@ def _measured(observable: Observable, values: Values, x: Array) -> float:
         if leaves_domain(error):
             return np.nan
         raise raised(f"observable '{observable.name}'", error) from error
-
-
-def _entry(value: Any, i: int) -> float:
-    """Return a number, or entry i of one for each state."""
-    return float(value[i]) if np.ndim(value) else float(value)
 
 
 def _component(i: int) -> Callable[[Any, Any], float]:

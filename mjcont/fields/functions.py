@@ -7,12 +7,16 @@ are numbers or, where they differ between the states, (m,).
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from mjcont.errors import FunctionError
+from mjcont.errors import FunctionError, MjcontError, leaves_domain
+from mjcont.fields.parameters import Arrays
+from mjcont.numerics.equations.clock import TimeUp, check
 from mjcont.numerics.equations.problem import Array, Values
 
 # states that tell whether a function takes them as columns, as parts of the scale beside one, and how well f agrees
@@ -83,3 +87,118 @@ def check_columns(what: str, together: Array, single: Array) -> None:
         k, i = wrong[0].tolist()
         raise FunctionError(f"{what} is declared vectorized, but its columns are not what it returns for each state by "
                             f"itself: f[{i}] of column {k} is {together[k, i]:g}, by itself {single[k, i]:g}")
+
+
+@dataclass(slots=True)
+class Evaluated:
+    """A user's f(u, p) or f(u, p, t): called, held against its shape, and counted.
+
+    Attributes
+    ----------
+    owner : what messages call the field.
+    n, scale : number of unknowns, and their typical sizes (n,).
+    timed, vectorized : whether it takes the time, and states as columns.
+    counts : evaluations by thread: what one computes costs what that one evaluates.
+    compared : whether its columns are known to be what they should.
+    """
+
+    owner: str
+    function: Callable[..., Any]
+    n: int
+    timed: bool
+    vectorized: bool
+    arrays: Arrays
+    scale: Array
+    counts: dict[int, int] = field(default_factory=dict)
+    compared: bool = False
+
+    @property
+    def count(self) -> int:
+        """Evaluations so far, by this thread."""
+        return self.counts.get(threading.get_ident(), 0)
+
+    def rate(self, x: Array, values: Values, time: float) -> Array:
+        """Return f at a time, in s, (n,); NaN where f overflows or leaves its domain."""
+        check()
+        self._counted(1)
+        try:
+            p = self.arrays.seen(values)
+            found = np.array(self.function(x, p, time) if self.timed else self.function(x, p), dtype=float)
+        except MjcontError:
+            raise
+        except Exception as error:
+            if leaves_domain(error):  # ends a curve there, with what came before
+                return np.full(self.n, np.nan)
+            raise raised(f"the function of {self.owner}", error) from error
+        if found.size != self.n:
+            raise FunctionError(f"the function of {self.owner} returned shape {found.shape} for {self.n} unknowns: "
+                                f"expected ({self.n},)")
+        return found.reshape(self.n)
+
+    def _counted(self, evaluations: int) -> None:
+        thread = threading.get_ident()
+        self.counts[thread] = self.counts.get(thread, 0) + evaluations
+
+    def rates(self, states: Array, values: Sequence[Values], times: Sequence[float]) -> Array:
+        """Return f at states (m, n), each with its own parameter values and time in s, (m, n), as `rate` does."""
+        if self.vectorized and len(states):
+            at = np.array(times, dtype=float)
+            return self.together(states, merged(values), at if np.ptp(at) else float(at[0]))
+        function, timed, seen, found = self.function, self.timed, self.arrays.seen, []
+        try:
+            for u, own, t in zip(states, values, times, strict=True):
+                check()
+                p = seen(own)
+                value = function(u, p, t) if timed else function(u, p)
+                # the user may fill one array, or one list, again and again
+                found.append(value.copy() if isinstance(value, np.ndarray) else tuple(value))
+            rows = np.array(found, dtype=float)
+        except TimeUp:
+            raise
+        except Exception:  # one by one, to see which has no value
+            rows = np.empty(0)
+        if rows.shape != states.shape:
+            return np.array([self.rate(u, p, t) for u, p, t in zip(states, values, times, strict=True)])
+        self._counted(len(states))
+        return rows
+
+    def together(self, states: Array, values: Mapping[str, Any], times: float | Array = 0.0) -> Array:
+        """Return f at states (m, n) by one call of a vectorized function, (m, n), as `rate` does.
+
+        Parameter values and times are numbers, or (m,) where they differ.
+        """
+        if not self.compared:
+            self._compare(states[0], values, times)
+            self.compared = True
+        return self._columns(states, values, times)
+
+    def _columns(self, states: Array, values: Mapping[str, Any], times: float | Array) -> Array:
+        check()
+        what, m = f"the function of {self.owner}", len(states)
+        columns = np.array(states.T)  # the user's own
+        try:
+            p = self.arrays.seen(values, m)
+            found = self.function(columns, p, times) if self.timed else self.function(columns, p)
+        except MjcontError:
+            raise
+        except Exception as error:
+            if not leaves_domain(error):
+                raise raised(f"{what}, declared vectorized,", error, f" for u of shape {columns.shape}") from error
+            return np.array([
+                self.rate(u, {k: _entry(v, i) for k, v in values.items()}, _entry(times, i))
+                for i, u in enumerate(states)
+            ])
+        self._counted(m)
+        return as_columns(what, found, self.n, m)
+
+    def _compare(self, x: Array, values: Mapping[str, Any], times: float | Array) -> None:
+        """Raise a FunctionError if a function that is said to be vectorized is not."""
+        states, own = beside(x, self.scale), {k: _entry(v, 0) for k, v in values.items()}
+        single = np.array([self.rate(u, own, _entry(times, 0)) for u in states])
+        many = {k: np.full(len(states), v) for k, v in own.items()}
+        check_columns(f"the function of {self.owner}", self._columns(states, many, _entry(times, 0)), single)
+
+
+def _entry(value: Any, i: int) -> float:
+    """Return a number, or entry i of one for each state."""
+    return float(value[i]) if np.ndim(value) else float(value)

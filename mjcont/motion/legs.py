@@ -157,6 +157,10 @@ class Leg(Model):
         """Return the right-hand side of the first-order form."""
         return self.problem.first_order(x, self.at(values), steps)
 
+    def derivative_along(self, x: Array, values: Values, *vectors: Array) -> Array | None:
+        """Return a derivative along vectors where the problem computes it itself."""
+        return self.problem.derivative_along(x, self.at(values), *vectors)
+
     def periods(self, x: Array, values: Values) -> Array:
         """Return the coordinates' periods; infinity where there are none."""
         return self.problem.periods(x, self.at(values))

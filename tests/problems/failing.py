@@ -249,6 +249,7 @@ CASES = {
     ),
     "differences.length_of": lambda b: differences.length_of(b.x, b.v),
     "differences.directional": lambda b: differences.directional(b.problem, b.x, b.values, 0.0 * b.v, 3),
+    "differences.by_orders": lambda b: differences.by_orders(np.full((7, b.n), np.nan), 2, 1e-2),
     "differences.combine": lambda b: differences.combine(lambda rows: rows, b.v, 2, 1e-2),
     "differences.settled_combine": lambda b: [
         differences.settled_combine(lambda rows, fill=fill: np.full((len(rows), b.n), fill), b.v, 2, 1e-2)

@@ -237,8 +237,11 @@ class _Frozen:
         return row / self.cusp.weight
 
     def _third(self, e: Array) -> float:
-        """Return w . f_xxx(v, v, e), sixth order: 42 evaluations."""
+        """Return w . f_xxx(v, v, e), the problem's own or of sixth order: 42 evaluations."""
         problem, local, v = self.local.problem, self.local, self.vectors["v"]
+        own = problem.derivative_along(local.x, local.values, v, v, e)
+        if own is not None:
+            return float(self.vectors["w"] @ own)
         h = _RAY / length_of(v, problem.state_scale)
         steps = (_NODES * _RAY)[:, None, None] * e + (NODES * h)[None, :, None] * v
         rows = problem.residuals(local.x, local.values, steps.reshape(-1, len(e))) @ self.vectors["w"]

@@ -97,11 +97,14 @@ def length_of(v: Array, scale: Array) -> float:
 
 
 def directional(problem: Equations, x: Array, values: Values, v: Array, order: int, step: float = 1e-2) -> Array:
-    """Return the `order`-th derivative (1, 2 or 3) of f along v at x, sixth order, (n,).
+    """Return the `order`-th derivative (1, 2 or 3) of f along v at x, (n,): the problem's own, or of sixth order.
 
     The step is `step` of the coordinates' scale for the largest component of v, smaller where f is smooth in pieces
     and one of them is smaller.
     """
+    own = problem.derivative_along(x, values, *(v,) * order)
+    if own is not None:
+        return own
     h, smallest = step / length_of(v, problem.state_scale), _SMALLEST * step / length_of(v, problem.state_scale)
     while True:
         found = combine(lambda rows: problem.residuals(x, values, rows), v, order, h)
@@ -134,16 +137,26 @@ _SHORTER, _ROUNDS, _SMALL = 0.3, 8, 1e-7
 _ROUNDING, _TOLD = 1e-15, 1e2
 
 
+def by_orders(rows: Array, order: int, h: float) -> tuple[Array, Array, Array]:
+    """Return a derivative of f from its rows at `NODES`, of the third order at `FAR_NODES`, times h.
+
+    Of sixth, fourth and second order, (n,) each.
+    """
+    weights = {1: FIRST, 2: SECOND, 3: THIRD}[order]
+    sixth, fourth, second = (w @ rows / np.float64(h) ** order for w in (weights, *_LOWER[order]))
+    return sixth, fourth, second
+
+
 def settled_combine(f: Callable[[Array], Array], v: Array, order: int, h: float) -> tuple[Array, float]:
     """Return `combine` with a step that suits f, and its relative error, zero where rounding alone is left.
 
     What an order of two more changes falls from order to order by a factor, by which the last change falls once more.
     """
     best, least, relative = np.zeros(0), np.inf, 0.0
-    nodes, weights = {1: (NODES, FIRST), 2: (NODES, SECOND), 3: (FAR_NODES, THIRD)}[order]
+    nodes = FAR_NODES if order == 3 else NODES
     for _ in range(_ROUNDS):
         rows = f((nodes * h)[:, None] * v)
-        sixth, fourth, second = (w @ rows / np.float64(h) ** order for w in (weights, *_LOWER[order]))
+        sixth, fourth, second = by_orders(rows, order, h)
         size, last, first = (float(np.abs(a).max()) for a in (sixth, sixth - fourth, fourth - second))
         noise = _ROUNDING * float(np.abs(rows).max()) / h**order
         error = last * min(1.0, last / max(first, 1e-300))
@@ -156,7 +169,10 @@ def settled_combine(f: Callable[[Array], Array], v: Array, order: int, h: float)
 
 
 def second_form(problem: Equations, x: Array, values: Values, u: Array, v: Array, step: float = 1e-2) -> Array:
-    """Return B(u, v), the second derivative of f in two directions, by polarization, (n,)."""
+    """Return B(u, v), the second derivative of f in two directions, the problem's own or by polarization, (n,)."""
+    own = problem.derivative_along(x, values, u, v)
+    if own is not None:
+        return own
     if np.array_equal(u, v):
         return directional(problem, x, values, u, 2, step)
     scale = problem.state_scale

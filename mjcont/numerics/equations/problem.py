@@ -129,7 +129,8 @@ class Equations(ABC):
        - `together` and `variants`: points of variants are corrected side by side;
        - `nonsmooth`, `pieces` and `active`: corners are found and crossed;
        - `periods`: curves that close full turns apart end there;
-       - `admissible`: predictions leave out motions that the problem holds.
+       - `admissible`: predictions leave out motions that the problem holds;
+       - `derivative_along`: derivatives along vectors are those, not differences of f.
 
     Attributes
     ----------
@@ -285,6 +286,14 @@ class Equations(ABC):
     def own_jacobian(self) -> bool:
         """Whether df/dx is computed by the problem itself, not by differences of f."""
         return False
+
+    def derivative_along(self, x: Array, values: Values, *vectors: Array) -> Array | None:
+        """Return the derivative of f along one, two or three vectors, (n,), that the problem computes itself.
+
+        None where differences of f are to be taken.
+        """
+        del x, values, vectors
+        return None
 
     # -- motions that nothing opposes ----------------------------------------------------------------------------
 

@@ -23,7 +23,7 @@ from mjcont.numerics.equations.algebra import least_squares, singular, solve
 from mjcont.numerics.equations.bordered import oriented
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
-    combine,
+    directional,
     jacobian_from_rows,
     jacobian_steps,
     second_form,
@@ -57,12 +57,8 @@ def cusp_coefficient(local: Local, v: Array, w: Array) -> float:
     w = w / (w @ v)
     b = second_form(problem, x, values, v, v)
     h = _bordered_solve(local.raw_jac, w, v, b - (w @ b) * v if not problem.second_order else b)
-    third = combine(lambda rows: problem.residuals(x, values, rows), v, 3, 2e-2 / _size(v, problem))
+    third = directional(problem, x, values, v, 3, 2e-2)
     return float(w @ (third - 3.0 * second_form(problem, x, values, v, h)) / 6.0)
-
-
-def _size(v: Array, problem: Equations) -> float:
-    return float(np.max(np.abs(v) / problem.state_scale))
 
 
 def _bordered_solve(jac: Any, w: Array, v: Array, rhs: Array) -> Array:
@@ -75,8 +71,8 @@ def _bordered_solve(jac: Any, w: Array, v: Array, rhs: Array) -> Array:
 class FirstOrder:
     """The first-order form around an equilibrium, with multilinear forms by sixth-order differences.
 
-    They are differences of df/dx where the problem computes that itself, else of f, with steps shortened until their
-    error, as differences of lower orders through the same places tell it, is small or grows by rounding.
+    They are the problem's own, or differences of df/dx where it computes that itself, else of f, with steps shortened
+    until their error, as differences of lower orders through the same places tell it, is small or grows by rounding.
 
     Attributes
     ----------
@@ -112,7 +108,7 @@ class FirstOrder:
     def _slopes(self, v: Array, rows: Array) -> Array:
         """Return J v at steps (m, n), from the problem's own Jacobian."""
         at = (self._problem.retract(self._x, row) for row in rows)
-        return np.array([self._problem.linearize(x, self._values, ()).jac @ v for x in at])
+        return np.array([directional(self._problem, x, self._values, v, 1) for x in at])
 
     def second(self, u: Array, v: Array) -> Array:
         """Return B(u, v) for complex vectors."""
@@ -120,6 +116,9 @@ class FirstOrder:
             ur, ui, vr, vi = np.real(u), np.imag(u), np.real(v), np.imag(v)
             real = self.second(ur, vr) - self.second(ui, vi)
             return real + 1j * (self.second(ur, vi) + self.second(ui, vr))
+        own = self._own(u, v)
+        if own is not None:
+            return own
         return 0.25 * (self._along(u + v, 2) - self._along(u - v, 2))
 
     def trilinear(self, u: Array, v: Array, w: Array) -> Array:
@@ -132,12 +131,22 @@ class FirstOrder:
                         total += 1j ** (i + j + k) * self._polarized(a, b, c)
         return total
 
+    def _own(self, *vectors: Array) -> Array | None:
+        """Return a form that the problem computes itself."""
+        return None if self._problem.second_order else self._problem.derivative_along(self._x, self._values, *vectors)
+
     def _polarized(self, u: Array, v: Array, w: Array) -> Array:
+        own = self._own(u, v, w)
+        if own is not None:
+            return own
         plus = self._along(u + v + w, 3) - self._along(u + v - w, 3)
         return (plus - self._along(u - v + w, 3) + self._along(u - v - w, 3)) / 24.0
 
     def third(self, u: Array, v: Array) -> Array:
         """Return C(u, u, v) for real vectors."""
+        own = self._own(u, u, v)
+        if own is not None:
+            return own
         return (self._along(u + v, 3) - self._along(u - v, 3) - 2.0 * self._along(v, 3)) / 6.0
 
 
