@@ -144,7 +144,7 @@ class VectorField(SideBySide):
             raise ParameterError(f"names: expected {self.n} names for the components of u, got {len(labels)}")
         self.state_labels = [(label, units.get(label, "")) for label in labels]
         components = {
-            label: Observable(label, unit, _component(i), of="state")
+            label: Observable(label, unit, _component(i), ("u", i), of="state")
             for i, (label, unit) in enumerate(self.state_labels)
         }
         self.observables = told_apart(components, self.parameters)
@@ -363,8 +363,20 @@ class VectorField(SideBySide):
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables for states (m, n), shape (m, number of names)."""
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
-        per_row = [values] * len(states) if isinstance(values, Mapping) else values
-        return np.array([[_measured(o, v, x) for o in chosen] for x, v in zip(states, per_row, strict=True)])
+        found = np.empty((len(states), len(chosen)))
+        for k, o in enumerate(chosen):
+            if o.source is not None:
+                found[:, k] = states[:, o.source[1]]
+            else:
+                per_row = [values] * len(states) if isinstance(values, Mapping) else values
+                found[:, k] = [_measured(o, v, x) for x, v in zip(states, per_row, strict=True)]
+        return found
+
+    def measure_along(self, states: Array, values: Values, driven: Mapping[str, Array]) -> Array:
+        """Return all observables for states (m, n), parameters having values of their own in each (m,), by name."""
+        if all(o.source is not None for o in self.observables.values()):  # no parameter counts
+            return self.measure(states, values)
+        return super().measure_along(states, values, driven)
 
     def __str__(self) -> str:
         """List parameters and components."""
