@@ -219,6 +219,8 @@ class VectorField(SideBySide):
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x plus each row of `steps`, (m, n)."""
+        if self.vectorized and len(steps):
+            return self.rates_together(x + steps, values)
         return self.rates(x + steps, [values] * len(steps), [0.0] * len(steps))
 
     def linearize(
@@ -364,12 +366,10 @@ class VectorField(SideBySide):
         """Return observables for states (m, n), shape (m, number of names)."""
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
         found = np.empty((len(states), len(chosen)))
+        per_row = [values] * len(states) if isinstance(values, Mapping) else values
         for k, o in enumerate(chosen):
-            if o.source is not None:
-                found[:, k] = states[:, o.source[1]]
-            else:
-                per_row = [values] * len(states) if isinstance(values, Mapping) else values
-                found[:, k] = [_measured(o, v, x) for x, v in zip(states, per_row, strict=True)]
+            own = [] if o.source else [_measured(o, v, x) for x, v in zip(states, per_row, strict=True)]
+            found[:, k] = states[:, o.source[1]] if o.source else own
         return found
 
     def measure_along(self, states: Array, values: Values, driven: Mapping[str, Array]) -> Array:
