@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
-from scipy import sparse
 
 from mjcont.arguments import checked
 from mjcont.errors import MjcontError, ParameterError, leaves_domain, unknown_name
@@ -16,8 +14,8 @@ from mjcont.fields.checks import Held
 from mjcont.fields.derivatives import Derivatives
 from mjcont.fields.foreign import offered
 from mjcont.fields.functions import Evaluated, raised, takes_time
-from mjcont.fields.parameters import flattened
-from mjcont.fields.together import linearized
+from mjcont.fields.parameters import declared, flattened
+from mjcont.fields.together import SideBySide
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
     PARAMETER,
@@ -26,14 +24,10 @@ from mjcont.numerics.equations.differences import (
     kept_within,
 )
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
-from mjcont.results.model import Model
 from mjcont.results.quantities import (
     Observable,
-    Parameter,
     check_values,
-    default_bounds,
     finite_array,
-    finite_pair,
     own_observable,
     told_apart,
 )
@@ -46,7 +40,7 @@ _NOTHING = 1e-8
 _GRID = 50
 
 
-class VectorField(Model):
+class VectorField(SideBySide):
     """The first-order system u' = f(u, p), or u' = f(u, p, t) with a period in t, with named parameters.
 
     Parameters
@@ -145,31 +139,17 @@ class VectorField(Model):
         self.state_scale = self._unit(self._typical)
         self._f = Evaluated(name, function, self.n, timed, vectorized, self._arrays, self._typical)
         units = self._arrays.spread(units or {}, default)
-        self.parameters = self._declared(default, units, self._arrays.spread(bounds or {}, default))
+        self.parameters = declared(default, units, self._arrays.spread(bounds or {}, default))
         labels = list(names) if names is not None else [f"u[{i}]" for i in range(self.n)]
         if len(labels) != self.n:
             raise ParameterError(f"names: expected {self.n} names for the components of u, got {len(labels)}")
         self.state_labels = [(label, units.get(label, "")) for label in labels]
         components = {
-            label: Observable(label, unit, _component(i), of="state")
+            label: Observable(label, unit, _component(i), ("u", i), of="state")
             for i, (label, unit) in enumerate(self.state_labels)
         }
         self.observables = told_apart(components, self.parameters)
         self.keyframes: dict[str, Array] = {}
-
-    @staticmethod
-    def _declared(
-        default: Mapping[str, float], units: Mapping[str, str], bounds: Mapping[str, tuple[float, float]]
-    ) -> dict[str, Parameter]:
-        for k in bounds:
-            if k not in default:
-                raise unknown_name("parameter", k, default)
-        own = {k: finite_pair(f"bounds of {k}", b) for k, b in bounds.items()}
-        ranges = {k: own.get(k, default_bounds(v)) for k, v in default.items()}
-        found = {k: Parameter(k, units.get(k, ""), v, ranges[k], "field") for k, v in default.items()}
-        for parameter in found.values():
-            parameter.check(parameter.value)
-        return found
 
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the defaults for the others."""
@@ -234,14 +214,13 @@ class VectorField(Model):
         return self._f.rates(states, values, times)
 
     def rates_together(self, states: Array, values: Mapping[str, Any], times: float | Array = 0.0) -> Array:
-        """Return f at states (m, n) by one call of a vectorized function, (m, n), as `rate` does.
-
-        Parameter values and times are numbers, or (m,) where they differ.
-        """
+        """Return f at states (m, n) by one call of a vectorized function, (m, n), as `rate` does."""
         return self._f.together(states, values, times)
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x plus each row of `steps`, (m, n)."""
+        if self.vectorized and len(steps):
+            return self.rates_together(x + steps, values)
         return self.rates(x + steps, [values] * len(steps), [0.0] * len(steps))
 
     def linearize(
@@ -249,10 +228,8 @@ class VectorField(Model):
     ) -> Linearization:
         """Return f, df/du and df/dp (always by fourth-order differences where no Jacobian is given)."""
         del accurate
-        if self.vectorized:
-            columns = {name: np.array([values[name]]) for name in wrt}
-            within = dict(zip(wrt, ranges or [None] * len(wrt), strict=True))
-            return Linearization(*(part[0] for part in self._linearized(x[None], values, columns, within)))
+        if self.differenced:
+            return self.by_one_call(x, values, wrt, ranges)
         f = self.residual(x, values)
         if self.jacobian is not None:
             jac = self._own_jacobian(x, values)
@@ -268,41 +245,6 @@ class VectorField(Model):
             rows = [self.residual(x, {**values, name: values[name] + o * h}) if o else f for o in rule.offsets]
             par[:, k] = np.asarray(rule.weights) @ np.array(rows) / h
         return Linearization(f, jac, par)
-
-    # -- many states side by side ------------------------------------------------------------------------------
-
-    def side_by_side(self, name: str) -> bool:
-        """Whether the function takes many states at once, and matrices are dense."""
-        del name
-        return self.vectorized and not self._sparse
-
-    @cached_property
-    def _sparse(self) -> bool:
-        """Whether the user's Jacobian is sparse, as it is at the start."""
-        return self.jacobian is not None and sparse.issparse(self._own_jacobian(self.u0, self.values()))
-
-    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return f at states (m, n), a parameter having a value of its own in each (m,), shape (m, n)."""
-        if not self.vectorized:
-            return super().residuals_along(states, values, name, column)
-        return self.rates_together(states, {**values, name: column})
-
-    def linearize_along(
-        self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
-    ) -> tuple[Array, Array, Array] | None:
-        """Return f (m, n), df/du (m, n, n) and df/dp (m, n) at such states; None where side by side gains nothing."""
-        if not self.side_by_side(name):
-            return None
-        f, jac, par = self._linearized(states, values, {name: column}, {name: bounds})
-        return f, jac, par[:, :, 0]
-
-    def _linearized(
-        self, states: Array, values: Values, columns: Mapping[str, Array], ranges: Mapping[str, Range | None]
-    ) -> tuple[Array, Any, Array]:
-        """Return f, df/du and df/dp at states of a vectorized field, as `together.linearized` does."""
-        own = self._own_jacobian if self.jacobian is not None else None
-        given = (self.rates_together, self.parameter_stencil, self.typical, self._own_slopes, own)
-        return linearized(*given, states, values, columns, ranges)
 
     # -- derivatives of the user's own -------------------------------------------------------------------------
 
@@ -401,6 +343,11 @@ class VectorField(Model):
         return self.residuals(x, values, steps)
 
     @property
+    def differenced(self) -> bool:
+        """Whether all derivatives are differences of a vectorized function."""
+        return self.vectorized and self.jacobian is None and self._given.dfdp is None
+
+    @property
     def own_jacobian(self) -> bool:
         """Whether the user gave one."""
         return self._given.jacobian is not None
@@ -418,8 +365,18 @@ class VectorField(Model):
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables for states (m, n), shape (m, number of names)."""
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
+        found = np.empty((len(states), len(chosen)))
         per_row = [values] * len(states) if isinstance(values, Mapping) else values
-        return np.array([[_measured(o, v, x) for o in chosen] for x, v in zip(states, per_row, strict=True)])
+        for k, o in enumerate(chosen):
+            own = [] if o.source else [_measured(o, v, x) for x, v in zip(states, per_row, strict=True)]
+            found[:, k] = states[:, o.source[1]] if o.source else own
+        return found
+
+    def measure_along(self, states: Array, values: Values, driven: Mapping[str, Array]) -> Array:
+        """Return all observables for states (m, n), parameters having values of their own in each (m,), by name."""
+        if all(o.source is not None for o in self.observables.values()):  # no parameter counts
+            return self.measure(states, values)
+        return super().measure_along(states, values, driven)
 
     def __str__(self) -> str:
         """List parameters and components."""

@@ -207,8 +207,10 @@ def build_branch(
     system, states = rows.system, rows.states
     problem = model_of(system.problem)
     words, counts, spectra = rows.stability()
+    everywhere = _kind_at(kind, None)
     for i, s in enumerate(spectra):
-        at = _kind_at(kind, rows.located[i])
+        special = rows.located[i]
+        at = everywhere if special is None else _kind_at(kind, special)
         if at and s is not None:
             words[i], counts[i] = verdict_at(KINDS[at].holds, s)
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)

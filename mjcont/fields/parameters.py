@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.errors import ParameterError
-from mjcont.results.quantities import finite
+from mjcont.errors import ParameterError, unknown_name
+from mjcont.results.quantities import Parameter, default_bounds, finite, finite_pair
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +65,21 @@ def flattened(parameters: Mapping[str, Any]) -> tuple[dict[str, float], Arrays]:
                 raise ParameterError(f"two parameters are called '{entry}': rename one, or leave it in the array")
             values[entry] = number
     return values, Arrays(arrays)
+
+
+def declared(
+    default: Mapping[str, float], units: Mapping[str, str], bounds: Mapping[str, tuple[float, float]]
+) -> dict[str, Parameter]:
+    """Return a field's parameters, each with its default, unit and range."""
+    for k in bounds:
+        if k not in default:
+            raise unknown_name("parameter", k, default)
+    own = {k: finite_pair(f"bounds of {k}", b) for k, b in bounds.items()}
+    ranges = {k: own.get(k, default_bounds(v)) for k, v in default.items()}
+    found = {k: Parameter(k, units.get(k, ""), v, ranges[k], "field") for k, v in default.items()}
+    for parameter in found.values():
+        parameter.check(parameter.value)
+    return found
 
 
 def _shape(value: Any) -> tuple[int, ...] | None:

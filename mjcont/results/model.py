@@ -20,7 +20,7 @@ from mjcont.results.quantities import Observable, Parameter, check_name, column_
 _ENGINE = frozenset(
     """
     active admissible connections constrained coordinates declare_again
-    derivative_along difference_each failure first_order follows_scale held holding
+    by_one_call derivative_along difference_each differenced failure first_order follows_scale held holding
     holds_straight left_forces linearize_along measure_along nonsmooth one_pattern own_jacobian parameter_stencil
     passive pencils periods pieces rates_together rescaled residuals residuals_along retract_each rigid_directions
     rigid_modes second_order side_by_side timed together typical variants vectorized writer

@@ -253,7 +253,7 @@ CASES = {
     "differences.by_orders": lambda b: differences.by_orders(np.full((7, b.n), np.nan), 2, 1e-2),
     "differences.combine": lambda b: differences.combine(lambda rows: rows, b.v, 2, 1e-2),
     "differences.settled_combine": lambda b: [
-        differences.settled_combine(lambda rows, fill=fill: np.full((len(rows), b.n), fill), b.v, 2, 1e-2)
+        differences.settled_combine(lambda rows, fill=fill: np.full((len(rows), b.n), fill), b.v[None], 2, 1e-2)
         for fill in (0.0, math.nan, math.inf)
     ],
     "differences.second_form": lambda b: differences.second_form(b.problem, b.x, b.values, b.v, 0.0 * b.v),

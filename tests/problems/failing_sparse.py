@@ -69,7 +69,7 @@ CASES = {
     "bends.bends_itself": lambda m: bends.bends_itself(m.field.local),
     "bends.reach_of": lambda m: bends.reach_of(m.field.local, math.nan * m.field.v),
     "bordered.null_pair": lambda m: bordered.null_pair(m.matrix.astype(complex)),
-    "coloured.Coloured": lambda m: [found(m.field, entries) for entries in (0.0 * m.field.sparse_jac, m.field.sparse_jac)],
+    "coloured.Coloured": lambda m: [found(m.field, part * m.field.sparse_jac) for part in (0.0, 1.0)],
     "columns.weighted": lambda m: columns.weighted(m.matrix, np.zeros(m.n), np.full(m.n, math.inf)),
     "frozen.parameter_slope": lambda m: frozen.parameter_slope(lambda at: float(at.f[0]), m.field.local, "p"),
     "frozen.hopf_motions": lambda m: frozen.hopf_motions(np.zeros((2, m.field.n)), math.nan, 0.0),

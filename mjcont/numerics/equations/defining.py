@@ -245,11 +245,13 @@ class Hopf(Condition):
         mass, damping, stiffness = (weighted(a, self.rows) for a in self._unscaled(local))
         even, odd = stiffness - k * mass, damping
         blocks = [[even, -k * odd], [odd, even]]
-        return sparse.bmat(blocks, format="csc") if sparse.issparse(even) else np.block(blocks)
+        if sparse.issparse(even):
+            return sparse.bmat(blocks, format="csc")
+        return np.concatenate([np.concatenate(row, axis=1) for row in blocks])  # np.block takes ten times as long
 
     def _bordered(self, local: Local, k: float) -> Any:
-        columns = np.column_stack([np.append(self.b0, self.b1), np.append(-k * self.b1, self.b0)])
-        rows = np.array([np.append(self.c0, -k * self.c1), np.append(self.c1, self.c0)])
+        columns = np.concatenate([self.b0, self.b1, -k * self.b1, self.b0]).reshape(2, -1).T
+        rows = np.concatenate([self.c0, -k * self.c1, self.c1, self.c0]).reshape(2, -1)
         return border(self._block(local, k), columns, rows)
 
     def value(self, local: Local, aux: Array) -> Array:

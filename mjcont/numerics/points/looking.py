@@ -27,11 +27,13 @@ def look(
     system: System, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector], settings: Settings
 ) -> Found | Refused:
     """Return the special points between two points of the curve in order, or why the step is to be shorter."""
+    if calm := CALM.get(new) is old:
+        detectors = [d for d in detectors if not d.structural]
+        if not detectors:
+            return Found()
     structural = any(d.structural for d in detectors)
     located, neutral = list[Located](), list[Located]()
-    calm = CALM.get(new) is old
-    whole = calm or not structural
-    for piece in [Piece(old, new, quiet=calm)] if whole else Balance(system, settings).pieces(old, new):
+    for piece in Balance(system, settings).pieces(old, new) if structural else [Piece(old, new, quiet=calm)]:
         found = _inside(piece, detectors)
         if isinstance(found, Refused):
             return found
