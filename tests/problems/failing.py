@@ -303,13 +303,13 @@ CASES = {
     "longsteps.LongSteps": steps_without_points,
     "notes.Note": lambda b: notes.Note().get(b.point()),
     "onebyone.OneByOne": walk,
-    "on_loci.lyapunov_at": lambda b: on_loci.lyapunov_at(b.local),
+    "on_loci.lyapunov_at": lambda b: on_loci.lyapunov_at(b.local, 1.0),
     "on_loci.fold_locus_detectors": lambda b: b.n > 1 or b.located(
         on_loci.fold_locus_detectors(b.system, b.fold(), b.settings)
     ),
     "on_loci.hopf_locus_detectors": lambda b: hopf_locus(b),  # noqa: PLW0108
     "on_loci.unfolding_stop": lambda b: on_loci.unfolding_stop(b.system),
-    "on_loci.FirstLyapunov": lambda b: b.condition(lambda: on_loci.FirstLyapunov(1.0)),
+    "on_loci.FirstLyapunov": lambda b: b.condition(lambda: on_loci.FirstLyapunov(1.0, 1.0)),
     "multistart.shortened": lambda b: multistart.shortened(np.full((2, b.n), math.nan)),
     "multistart.spectral_step": lambda b: multistart.spectral_step(*b.many().linearize(np.zeros((2, b.n)))),
     "multistart.levenberg_marquardt": lambda b: multistart.levenberg_marquardt(b.many(), np.zeros((3, b.n))),

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from scipy import sparse
 
 from mjcont.numerics.equations.bordered import Factored
 from mjcont.numerics.equations.defining import Fold, Hopf
@@ -18,10 +19,10 @@ from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Condition, Local, System
 from mjcont.numerics.points import codim2, normalform
 from mjcont.numerics.points.events import Detector, Solved, ZeroDetector
-from mjcont.numerics.points.on_equilibria import critical_pairs, critical_square, square_system
+from mjcont.numerics.points.on_equilibria import critical_pairs, critical_square, square_near, square_system
 from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum, spectrum_of
-from mjcont.numerics.step.arclength import CurvePoint
+from mjcont.numerics.step.arclength import CurvePoint, tangent_at
 
 Finish = Callable[[Corrected, System], tuple[dict[str, Any], str] | None]
 
@@ -29,21 +30,33 @@ Finish = Callable[[Corrected, System], tuple[dict[str, Any], str] | None]
 class FirstLyapunov(Condition):
     """The condition l1 = 0 on a Hopf curve."""
 
-    def __init__(self, weight: float) -> None:
-        self.weight = weight
+    def __init__(self, weight: float, omega: float) -> None:
+        self.weight, self.omega = weight, omega
 
     def value(self, local: Local, aux: Array) -> Array:
         """Return l1, relative to its size nearby."""
-        return np.array([lyapunov_at(local).value]) / self.weight
+        return np.array([lyapunov_at(local, self.omega).value]) / self.weight
 
     def error(self, local: Local, aux: Array) -> Array:
         """Return what differences of third order leave open of l1."""
-        return np.array([lyapunov_at(local).error]) / self.weight
+        return np.array([lyapunov_at(local, self.omega).error]) / self.weight
+
+    def gradient(self, local: Local, system: System, y: Array) -> Array | None:
+        """Return the derivative along the Hopf curve as a row along its tangent, (1, n + k); None for small problems.
+
+        The other equations say what lies across the tangent: only the way to the zero depends on it.
+        """
+        if not sparse.issparse(local.jac):
+            return None
+        curve = System(system.problem, system.base, system.free, system.conditions[:-1], accurate=True)
+        tangent = tangent_at(curve, local, y)
+        found: Array = system.slope(self, local, y, tangent)[:, None] * tangent
+        return found
 
 
-def lyapunov_at(local: Local) -> normalform.Lyapunov:
-    """Return l1 at or near a Hopf point, NaN where no pair of eigenvalues is imaginary."""
-    square = critical_square(local_spectrum(local))
+def lyapunov_at(local: Local, omega: float) -> normalform.Lyapunov:
+    """Return l1 at or near a Hopf point of about a frequency, NaN where no pair of eigenvalues is imaginary."""
+    square = square_near(local, omega) if sparse.issparse(local.jac) else critical_square(local_spectrum(local))
     if square is None or square <= 0:
         return normalform.Lyapunov(math.nan, math.nan, 0.0)
     return normalform.lyapunov(local.problem, local.x, local.values, float(np.sqrt(square)))
@@ -184,19 +197,24 @@ def hopf_locus_detectors(system: System, hopf: Hopf, settings: Settings, *, lyap
 def _generalised_hopf(system: System, hopf: Hopf, settings: Settings) -> ZeroDetector:
     last = system.k - 1
 
+    def frequency(y: Array) -> float:
+        return math.sqrt(max(hopf.square(y[last : last + 1]), 0.0))
+
     def test(point: CurvePoint) -> float:
-        return lyapunov_at(point.local).l1 if point.y[last] > 0 else math.nan
+        return lyapunov_at(point.local, frequency(point.y)).l1 if point.y[last] > 0 else math.nan
 
     def solve_with(near: Corrected) -> Solved:
-        weight = abs(lyapunov_at(near.local).l1) or 1.0
-        full, y = square_system(system, [FirstLyapunov(max(weight, 1e-3))], near)
+        omega = frequency(near.y)
+        weight = abs(lyapunov_at(near.local, omega).l1) or 1.0
+        full, y = square_system(system, [FirstLyapunov(max(weight, 1e-3), omega)], near)
         return solve(full, near.x, y, tol=1e-11, most=12), full
 
     def finish(c: Corrected, full: System) -> tuple[dict[str, Any], str] | None:
         square = hopf.square(c.y[last : last + 1])
         if square <= 0:
             return None
-        return {"omega": float(np.sqrt(square)), "l1": lyapunov_at(c.local).l1}, ""
+        omega = float(np.sqrt(square))
+        return {"omega": omega, "l1": lyapunov_at(c.local, omega).l1}, ""
 
     return ZeroDetector("GH", system, test, solve_with, finish, settings, vanishes=True)
 
