@@ -168,10 +168,12 @@ class Readings:
         self._writer.write(self._parameters, values)
         if self._writer.failure:
             return np.full((len(states), len(chosen)), np.nan)
+        sources = [o.source for o in chosen if o.source is not None]
+        if all(field == "qpos" for field, _ in sources):
+            return states[:, [index for _, index in sources]].copy()
         controls = self._writer.controls(self._parameters, values, driven) if driven else None
         if self._rows is None:
             self._rows = Rows(self._model, _ROWS, None)
-        sources = [o.source for o in chosen if o.source is not None]
         columns = [self._rows.field(field)[:, index] for field, index in sources]
         out = np.empty((len(states), len(chosen)))
         for first in range(0, len(states), _ROWS):

@@ -347,6 +347,7 @@ CASES = {
     "vibration.frequency_response": lambda b: vibration.frequency_response(pencil(b), np.array([0.0, math.nan]), b.v),
     "spectrum.companion": lambda b: spectrum.companion(*vars_of(pencil(b))),
     "spectrum.spectrum": lambda b: [spectrum.spectrum(p) for p in (b.local.pencil, pencil(b), thin_pencil(b))],
+    "spectrum.settles": lambda b: [spectrum.settles(pencil(b), s) for s in (math.nan, 0.0, 1.0)],
     "spectrum.symmetric": lambda b: spectrum.symmetric(np.full((b.n, b.n), math.nan)),
     "spectrum.quadratic_eigenvalues": lambda b: spectrum.quadratic_eigenvalues(*vars_of(pencil(b))),
     "spectrum.conservative_spectra": lambda b: spectrum.conservative_spectra([pencil(b)]),

@@ -40,6 +40,7 @@ class _Part:
     name : of its first body, with `_CARRIES` where it is more than that.
     root : its first body.
     inside : (nbody,) whether a body belongs to it.
+    bodies : its first body, and those that hang from it without belonging to it: their joints alone can give way.
     joint : the ball or free joint of its first body, if its twists are about that in the axes of the ground; else -1.
     barred, work : for each state, velocities that the joints do not allow (k, 6), and power of the forces (6,).
     """
@@ -47,6 +48,7 @@ class _Part:
     name: str
     root: int
     inside: Array
+    bodies: Array
     joint: int = -1
     barred: list[Array] = field(default_factory=list)
     work: list[Array] = field(default_factory=list)
@@ -121,16 +123,18 @@ def _parts(model: mujoco.MjModel) -> list[_Part]:
     """Return every body that a joint moves, alone and with what it carries, but not all that moves at once."""
     moving, number, last = model.body_treeid >= 0, np.arange(model.nbody), _carried(model)
     found, hung = list[_Part](), list[_Part]()
+    held = np.where(model.body_dofnum > 0, model.body_weldid[model.body_parentid], -1)
     for body in np.flatnonzero(model.body_dofnum > 0).tolist():
         alone = model.body_weldid == model.body_weldid[body]  # what is welded to a body is part of it
         carried = (number >= body) & (number < last[body])
         name = _body_name(model, body)
-        for inside, label in ((alone, name), (carried, name + _CARRIES)):
+        hanging = np.append(body, np.flatnonzero(held == body))
+        for inside, label, bodies in ((alone, name, hanging), (carried, name + _CARRIES, hanging[:1])):
             if not np.array_equal(inside & moving, moving) and not (label != name and np.array_equal(alone, carried)):
-                found.append(_Part(label, body, inside))
+                found.append(_Part(label, body, inside, bodies))
                 joint = int(model.body_jntadr[body])
                 if mujoco.mjtJoint(model.jnt_type[joint]) in _ROUND:
-                    hung.append(_Part(label, body, inside, joint))
+                    hung.append(_Part(label, body, inside, bodies, joint))
     return [*found, *hung]
 
 
@@ -162,18 +166,21 @@ def _moved(model: mujoco.MjModel, data: mujoco.MjData, part: _Part) -> Array:
 def _look(
     model: mujoco.MjModel, data: mujoco.MjData, force: Array, parts: list[_Part], largest: float
 ) -> list[_Part]:
-    """Return the parts that may still be free after one more state."""
+    """Return the parts that may still be free after one more state.
+
+    Whatever bears a part rests, so that its own joints, and those of what hangs from it, allow its motion or none do.
+    """
     every, left = trees(model, data), []
-    inverses: dict[int, Array] = {}
     for part in parts:
-        own = int(model.body_treeid[part.root])
-        tree = every[own]
-        if own not in inverses:
-            inverses[own] = np.linalg.pinv(tree.jac)
-        moved = _moved(model, data, part)[tree.bodies].reshape(-1, 6)
-        z = inverses[own] @ moved
-        part.barred.append(condensed((tree.jac @ z - moved) / np.abs(moved).max()))
-        part.work.append(force[tree.coordinates] @ z / (np.abs(z).max() or 1.0))
+        tree = every[int(model.body_treeid[part.root])]
+        first, count = model.body_dofadr[part.bodies], model.body_dofnum[part.bodies]
+        own = np.concatenate([np.arange(f, f + c) for f, c in zip(first.tolist(), count.tolist(), strict=True)])
+        rows = tree.jac.reshape(len(tree.bodies), 6, -1)[np.searchsorted(tree.bodies, part.bodies)]
+        jac = rows[:, :, own - tree.coordinates.start].reshape(-1, len(own))
+        moved = _moved(model, data, part)[part.bodies].reshape(-1, 6)
+        z = least_squares(jac, moved)
+        part.barred.append((jac @ z - moved) / np.abs(moved).max())
+        part.work.append(force[own] @ z / (np.abs(z).max() or 1.0))
         if singular(part.opposed(10.0 * largest))[1][-1] <= _RIGID:
             left.append(part)
     return left

@@ -36,6 +36,8 @@ _ROUNDING = 1e-13
 _EIGENSOLVER = 1e-15
 # noise of eigenvalues of a first-order system, in parts of the largest entry and of themselves
 _FIRST_ORDER, _RELATIVE = 1e-11, 1e-12
+# entries of the stiffness matrices whose spectra are computed together
+_ENTRIES = 2**17
 # a shift beside zero in parts of the slowest rate that n equal springs and masses in a row have
 _BESIDE = 1e-3
 
@@ -188,9 +190,32 @@ def conservative_spectra(pencils: Sequence[Pencil]) -> list[Spectrum]:
     """Return the spectra of pencils that are known to have a symmetric K and a symmetric, semidefinite C."""
     if any(sparse.issparse(p.stiffness) for p in pencils):
         return [spectrum(p) for p in pencils]
-    k = np.array([p.stiffness for p in pencils])
-    mass, damping = (np.array([getattr(p, name) for p in pencils]) for name in ("mass", "damping"))
-    return _conservative(mass, damping, 0.5 * (k + k.transpose(0, 2, 1)))
+    found: list[Spectrum] = []
+    many = max(_ENTRIES // max(len(pencils[0].stiffness), 1) ** 2, 1) if pencils else 1
+    for first in range(0, len(pencils), many):
+        part = pencils[first : first + many]
+        mass, damping, k = (np.array([getattr(p, name) for p in part]) for name in ("mass", "damping", "stiffness"))
+        found += _conservative(mass, damping, 0.5 * (k + k.transpose(0, 2, 1)))
+    return found
+
+
+def settles(pencil: Pencil, softest: float) -> bool:
+    """Whether a pencil of full matrices is stable beyond doubt, without its eigenvalues.
+
+    K and C are symmetric, C semidefinite, and `softest` is K's least eigenvalue. With a = x*Mx, b = x*Cx, c = x*Kx an
+    eigenvalue solves a s^2 + b s + c = 0: -Re s is at least b / 2 a or c / b, and |s| at most b / a + (c / a)^1/2.
+    """
+    mass, damping, stiffness = pencil.mass, pencil.damping, pencil.stiffness
+    if mass is None or damping is None or not softest > 0.0:
+        return False
+    largest, most, stiffest = (float(np.abs(m).sum(axis=1).max()) for m in (mass, damping, stiffness))
+    lightest, least = float(symmetric_eigenvalues(mass)[0]), float(symmetric_eigenvalues(damping)[0])
+    if not (lightest > 0.0 and least > 0.0):
+        return False
+    decay = min(least / (2.0 * largest), softest / most)
+    fastest = most / lightest + float(np.sqrt(stiffest / lightest))
+    noise = DIFFERENCE_NOISE * float(np.abs(stiffness).max()) / float(np.diag(mass).max())
+    return bool(softest / largest > noise and decay > _ROUNDING * fastest)
 
 
 def _conservative(mass: Array, damping: Array, stiffness: Array) -> list[Spectrum]:

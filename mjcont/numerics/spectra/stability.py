@@ -18,9 +18,11 @@ from mjcont.numerics.equations.system import Local
 from mjcont.numerics.spectra.large import positive_count
 from mjcont.numerics.spectra.spectrum import (
     MARGINAL,
+    STABLE,
     UNSTABLE,
     Spectrum,
     conservative_spectra,
+    settles,
     spectrum,
     symmetric,
 )
@@ -31,8 +33,12 @@ from mjcont.numerics.step.notes import Note
 _AS_NEAR = 10.0
 # entries of the evaluations for derivatives that are held at a time
 _ENTRIES = 2**17
+# unknowns from which on eigenvalues wait where anything else decides
+_MANY = 128
 # the spectrum; the number of negative eigenvalues of K; that of unstable ones, told by the points beside
 SPECTRUM, NEGATIVE, COUNT = Note[Spectrum](), Note[int | None](), Note[int | None]()
+# the least eigenvalue of K
+SOFTEST = Note[float]()
 
 
 def verdict_at(holds: tuple[int, int], s: Spectrum) -> tuple[str, int]:
@@ -71,7 +77,11 @@ def negative_stiffness(point: CurvePoint) -> int | None:
         if not (point.local.problem.passive and symmetric(point.local.raw_jac)):
             return None
         jac = point.local.raw_jac
-        return positive_count(jac) if sparse.issparse(jac) else int(np.count_nonzero(symmetric_eigenvalues(jac) > 0.0))
+        if sparse.issparse(jac):
+            return positive_count(jac)
+        found = -symmetric_eigenvalues(jac)
+        SOFTEST.put(point, float(found[-1]))
+        return int(np.count_nonzero(found < 0.0))
 
     return NEGATIVE.of(point, count)
 
@@ -158,9 +168,17 @@ def _told(point: CurvePoint) -> bool:
 
 
 def _plain(point: CurvePoint) -> tuple[str, int] | None:
-    """Return stability and count where the inertia of K decides alone; without it a mode may still be undamped."""
+    """Return stability and count where the inertia of K decides alone; without it a mode may still be undamped.
+
+    That is asked where eigenvalues would cost much.
+    """
     negative = NEGATIVE.get(point)
-    return (UNSTABLE, negative) if negative and not SPECTRUM.known(point) else None
+    if negative is None or SPECTRUM.known(point):
+        return None
+    if negative:
+        return UNSTABLE, negative
+    softest = SOFTEST.get(point) if point.local.problem.n > _MANY else None
+    return (STABLE, 0) if softest is not None and settles(point.local.pencil, softest) else None
 
 
 def _beside(count: int, waiting: Collection[int]) -> list[tuple[int, ...]]:

@@ -25,8 +25,8 @@ _NODES = 8
 _CLUSTER = 0.2
 # gaps shorter than this, or with ends whose tangents differ by more (as a length), stay as they are
 _SHORT, _TURNED = 1e-7, 0.6
-# rows that are corrected together at least, and entries of their matrices at most
-_TOGETHER, _ENTRIES = 32, 2**19
+# entries of the matrices of rows that are corrected together at most, unless they are so few
+_ENTRIES, _FEW = 2**19, 4
 _ROUNDS = 4
 # rows of those that are corrected together for which derivatives are taken where they do not settle without
 _RENEWED = 16
@@ -87,7 +87,7 @@ def rows_between(system: System, points: Sequence[CurvePoint], chord: float) -> 
     fraction = (np.arange(len(after)) - firsts + 1.0) / (counts[after] + 1.0)
     windows, sizes = node_windows(nodes.s, np.flatnonzero(counts), _NODES, _CLUSTER)
     parts: list[Between] = []
-    together = max(_ENTRIES // (system.n + 1) ** 2, _TOGETHER)
+    together = max(_ENTRIES // (system.n + 1) ** 2, _FEW)
     for size in np.unique(sizes[after]).tolist():
         chosen = np.flatnonzero(sizes[after] == size)
         for first in range(0, len(chosen), together):

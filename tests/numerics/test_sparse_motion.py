@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from scipy import sparse
 
+from mjcont.numerics.equations.algebra import full
 from mjcont.numerics.equations.coloured import Coloured
 from mjcont.numerics.equations.differences import FOURTH_ORDER, SECOND_ORDER
 from mjcont.numerics.equations.problem import Pencil
-from mjcont.numerics.spectra.spectrum import spectrum
+from mjcont.numerics.spectra.spectrum import settles, spectrum
 
 
 def neighbours(count, reach=1):
@@ -89,6 +90,15 @@ def test_every_unstable_mode_is_counted(count):
 
 def test_at_a_fold_a_string_is_marginal():
     assert spectrum(string(softer=squares(1)[0])).stability == "marginal"
+
+
+@pytest.mark.parametrize(
+    ("softer", "damping", "known"), [(0.0, DAMPING, True), (0.0, 0.0, False), (squares(1)[0], DAMPING, False)]
+)
+def test_stability_is_told_without_eigenvalues_where_nothing_is_near_the_axis(softer, damping, known):
+    pencil = full(string(softer, damping))
+    softest = np.linalg.eigvalsh(pencil.stiffness)[0]
+    assert settles(pencil, softest) is known
 
 
 def test_a_mode_that_its_damper_drives_is_seen_in_full():
