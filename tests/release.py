@@ -1,7 +1,7 @@
 """What would be published, tried as its users will meet it: `make try-release`.
 
 Builds sdist and wheel twice and compares them to the bit, looks into the wheel, and for each interpreter installs
-it in a fresh environment, without extras and then with each, and follows the command line's page and the README
+it in a fresh environment, without extras and then with each, and follows README, tutorials and the command line's page
 from another folder. Without an extra the message must name it. Exit status 1 if anything is not as it should be.
 
     python tests/release.py [python3.11 python3.13 ...]      # default: this interpreter
@@ -13,6 +13,7 @@ import hashlib
 import os
 import re
 import select
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -28,6 +29,7 @@ ROOT = Path(__file__).resolve().parent.parent
 EPOCH = "1767225600"  # 2026-01-01: any moment that does not move
 # what a page shows and no machine without a screen, or no minute, has room for
 NOT_TRIED = ("mjcont view", "mjcont report", "mjcont reproduce", "mjcont explore")
+TUTORIALS = ("engineer", "mujoco", "dynamicist", "bringing")
 FRAME = "import mjcont as mc; print(mc.load('out/equilibria.h5').to_dataframe().attrs['units'])"
 # what needs each extra, what must be said without it, and with it ("" where it then works)
 EXTRAS = {
@@ -157,8 +159,10 @@ def check_installed(python: str, wheel: Path, folder: Path) -> None:
             environment.serves()
         else:
             environment.run(command, fails=then)
-    print(f"ok: Python {environment.version}: {len(tried)} commands, the README's Python, extras {', '.join(EXTRAS)} "
-          f"({time.monotonic() - begin:.0f} s)")
+    pages = " ".join(shlex.quote(str(ROOT / "docs" / f"{name}.md")) for name in TUTORIALS)
+    environment.run(f"python {shlex.quote(str(ROOT / 'tests' / 'problems' / 'pages.py'))} {pages}")
+    print(f"ok: Python {environment.version}: {len(tried)} commands, the README's Python, extras {', '.join(EXTRAS)}, "
+          f"{len(TUTORIALS)} tutorials ({time.monotonic() - begin:.0f} s)")
 
 
 def main(pythons: Sequence[str]) -> int:

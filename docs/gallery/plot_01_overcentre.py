@@ -16,6 +16,8 @@ print(branch)
 # The two folds are where it opens and closes: beyond a fold there is nothing near to rest at, and the links snap. A
 # load path follows the stable parts as the force falls and rises again, and lands where the motion after a snap
 # comes to rest.
+#
+# (Labels of jumps count along the path, those of folds along the branch.)
 
 cycle = mc.load_path(branch, "F", [40, 0, 40])
 for jump in cycle.jumps:

@@ -143,5 +143,12 @@ def test_the_page_of_the_index_has_nothing_that_is_not_there(index_page: ModuleT
     page = index_page.page((ROOT / "README.md").read_text(encoding="utf-8"))
     assert "![" not in page
     assert not re.search(r"\]\((?!https?:)", page)
-    assert "docs/theory.md" in page
-    assert "mjcont inspect overcentre" in page
+    assert "(`mjcont docs theory`)" in page
+    assert "mjcont run overcentre" in page
+
+
+def test_with_an_address_the_index_shows_pictures_and_follows_links(index_page: ModuleType) -> None:
+    page = index_page.page("![gear](docs/images/a.gif) [theory](docs/theory.md) [M](https://m.org/x)", "https://h.org/raw/")
+    assert page == (
+        "![gear](https://h.org/raw/docs/images/a.gif) [theory](https://h.org/raw/docs/theory.md) [M](https://m.org/x)"
+    )

@@ -1,7 +1,9 @@
 """Pages that are followed word for word: files saved, commands and Python run, and what is shown held against it.
 
 A file is a block after the comment `<!-- file: NAME -->`. A block of text after commands or Python shows lines of what
-these print; those with digits that another machine may round otherwise are not shown on a page.
+these print; those with digits that another machine may round otherwise are not shown on a page. Needs no test tools:
+
+    python pages.py PAGE.md ...      # follows pages, each in a new folder here
 """
 
 from __future__ import annotations
@@ -72,3 +74,12 @@ def follow(page: Path, folder: Path) -> dict[str, Any]:
             missing = [line for line in block.text.splitlines() if line.strip() not in said]
             assert not missing, f"{page.name} shows {missing}, but it says\n{said}"
     return names
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:]:
+        folder = Path.cwd() / Path(name).stem
+        folder.mkdir()
+        os.chdir(folder)
+        follow(Path(name), folder)
+        os.chdir(folder.parent)
