@@ -59,6 +59,8 @@ sphinx_gallery_conf = {
 
 html_theme = "furo"
 html_title = f"mjcont {release}"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_show_sphinx = False
 html_copy_source = False
 
