@@ -8,6 +8,8 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.stamp
 UNFINISHED := $(VENV)/.unfinished
 OUT := out/reproduce
+SITE := out/site
+EXTRA := dev
 WEB := mjcont/explorer/web
 
 # Tests start many processes: compiled once, the package starts faster in each.
@@ -25,7 +27,8 @@ FRESH := $(shell $(BIN)/python -c 'import pip' 2>/dev/null && $(STAMP_TEXT) | cm
 
 .DEFAULT_GOAL := help
 .PHONY: help env reproduce reproduce-fast test test-slow test-long test-fuzz test-shaken test-shaken-fast test-kernels \
-	test-faults thirdparty test-thirdparty test-explorer explorer-bundle explorer-check bench clean FORCE
+	test-faults thirdparty test-thirdparty test-explorer explorer-bundle explorer-check docs try-release \
+	bench clean FORCE
 
 help: ## list these targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 # \2/p' $(MAKEFILE_LIST) | awk -F' # ' '{ printf "%-23s %s\n", $$1, $$2 }'
@@ -80,12 +83,21 @@ test-explorer: env ## the explorer in a headless browser (Debian's package chrom
 explorer-check: ## whether the script and the style sheet in the package are what their sources build to
 	cd $(WEB) && npm ci --silent && npm run --silent check
 
+docs: ## build the pages in out/site, in an environment of its own (.venv-docs), and check what leads where
+	@$(MAKE) --no-print-directory VENV=.venv-docs EXTRA=docs env
+	.venv-docs/bin/python -m sphinx -W --keep-going -q -j 2 -b html docs $(SITE)
+	.venv-docs/bin/python docs/check_site.py $(SITE)
+
+try-release: env ## build sdist and wheel twice, install in fresh environments, follow what pages show; PYTHONS="python3.12 ..."
+	$(BIN)/python tests/release.py $(PYTHONS)
+
 bench: env ## measure speed beside a floor and peers, in out/benchmarks.json (half an hour; QUICK=1: minutes)
 	$(BIN)/python -m benchmarks -o out/benchmarks.json $(if $(QUICK),--quick)
 
-clean: ## remove .venv, builds and caches; results in out/ stay
-	@if test -e $(STAMP) || test -e $(UNFINISHED); then rm -f $(STAMP) && rm -rf $(VENV); fi
-	rm -rf build dist *.egg-info .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+clean: ## remove .venv, .venv-docs, builds and caches; results in out/ stay
+	@for venv in $(VENV) .venv-docs; do \
+	  if test -e $$venv/.stamp || test -e $$venv/.unfinished; then rm -f $$venv/.stamp && rm -rf $$venv; fi; done
+	rm -rf build dist docs/api docs/examples *.egg-info .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find mjcont scripts tests -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
 
 $(STAMP): pyproject.toml constraints.txt $(if $(FRESH),,FORCE)
@@ -105,7 +117,7 @@ $(STAMP): pyproject.toml constraints.txt $(if $(FRESH),,FORCE)
 	said=$$("$(PYTHON)" -m venv $(VENV) 2>&1) || \
 	  fail "'$(PYTHON) -m venv' failed; on Debian and Ubuntu, the package python$$version-venv brings what it needs ($$(echo "$$said" | tail -n 1))"; \
 	echo "installing mjcont and its tools in $(VENV), with Python $$version"; \
-	$(BIN)/python -m pip install --quiet --no-compile --no-input --disable-pip-version-check -c constraints.txt -e '.[dev]' || \
+	$(BIN)/python -m pip install --quiet --no-compile --no-input --disable-pip-version-check -c constraints.txt -e '.[$(EXTRA)]' || \
 	  fail "installing did not finish, and $(VENV) is removed: see pip's message above, then run make again"; \
 	$(STAMP_TEXT) >$(STAMP) && rm $(UNFINISHED)
 

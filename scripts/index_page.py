@@ -1,4 +1,8 @@
-"""The README as a package index shows it: without the pictures and links that lead into the repository."""
+"""The README as a package index shows it.
+
+An index shows pictures and follows links by whole addresses only. pyproject.toml states where the repository's files
+can be fetched (`files`); as long as that is nowhere, pictures are left out, and links are their words.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +17,17 @@ except ImportError:  # outside a build
 
 _PICTURE = re.compile(r"^!\[[^\]]*\]\([^)]*\)\n\n?", re.MULTILINE)
 _CAPTIONED = re.compile(r"<!-- picture -->.*?<!-- end of picture -->\n\n?", re.DOTALL)
+_PAGE = re.compile(r"\[([^\]]+)\]\(docs/(\w+)\.md\)")
 _LINK = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]*\)")
+_TARGET = re.compile(r"\]\((?!https?:)([^)]*)\)")
 
 
-def page(readme: str) -> str:
-    """Return the text without pictures, and with the words of links that are no web addresses."""
-    return _LINK.sub(r"\1", _PICTURE.sub("", _CAPTIONED.sub("", readme)))
+def page(readme: str, files: str = "") -> str:
+    """Return the text with whole addresses, or without pictures and links where there are no `files`."""
+    if files:
+        return _TARGET.sub(rf"]({files.rstrip('/')}/\1)", readme)
+    words = _PAGE.sub(r"\1 (`mjcont docs \2`)", _PICTURE.sub("", _CAPTIONED.sub("", readme)))
+    return _LINK.sub(r"\1", words)
 
 
 class IndexPage(MetadataHookInterface):
@@ -27,4 +36,4 @@ class IndexPage(MetadataHookInterface):
     def update(self, metadata: dict[str, Any]) -> None:
         """Set the package's readme."""
         text = (Path(self.root) / "README.md").read_text(encoding="utf-8")
-        metadata["readme"] = {"content-type": "text/markdown", "text": page(text)}
+        metadata["readme"] = {"content-type": "text/markdown", "text": page(text, self.config.get("files", ""))}

@@ -13,8 +13,9 @@ from mjcont.outside.terminal import say
 
 def register(command: Command) -> None:
     """Add the commands to the parser."""
-    p = command("docs", "list what there is to read in this installation, or print a page", docs)
-    p.add_argument("page", metavar="PAGE", nargs="?", help="such as studies")
+    p = command("docs", "list what there is to read in this installation, or print a page, a word or a name", docs)
+    p.add_argument("topic", metavar="TOPIC", nargs="*",
+                   help="a page such as studies, a word such as fold, or a name such as load_path")
     p.add_argument("--path", action="store_true", help="print where the pages are, or the page is")
 
     p = command("schema", "print the JSON Schema of study files, with which editors complete and check them", schema)
@@ -26,20 +27,19 @@ def register(command: Command) -> None:
 
 
 def docs(args: argparse.Namespace) -> int:
-    """List the pages of the documentation, or print one."""
-    from mjcont.errors import unknown_name
-    from mjcont.models.loading import shipped_folder
+    """List the pages of the documentation, or print one, a word of the glossary or what a name is for."""
+    from mjcont.commands import pages
 
-    folder = shipped_folder("docs")
-    pages = {path.stem: path for path in sorted(folder.glob("*.md"))}
-    if args.page is None:
-        lines = [f"{name:<14} {_title(path.read_text(encoding='utf-8'))}" for name, path in pages.items()]
-        say(str(folder) if args.path else "\n".join([*lines, "", "mjcont docs PAGE prints one."]))
+    topic = " ".join(args.topic)
+    if topic:
+        say(str(pages.place(topic)) if args.path else pages.text_of(topic))
         return OK
-    name = args.page.removesuffix(".md").removeprefix("docs/")
-    if name not in pages:
-        raise unknown_name("page", args.page, pages)
-    say(str(pages[name]) if args.path else pages[name].read_text(encoding="utf-8").rstrip())
+    if args.path:
+        say(str(pages.folder()))
+        return OK
+    lines = [f"{name:<16} {_title(path.read_text(encoding='utf-8'))}" for name, path in pages.pages().items()]
+    say("\n".join([*lines, "", f"They are in {pages.folder()}; mjcont docs PAGE prints one. It explains words (fold) "
+                   "and names (load_path), too."]))
     return OK
 
 

@@ -236,8 +236,8 @@ def iterate_equilibria(
 ) -> Iterator[Point]:
     """Yield the points of a curve of equilibria one by one, special points among them, for callers who drive it.
 
-    Arguments as for `continue_equilibria`, in one direction. Special points are `SpecialPoint`s without a label;
-    the iterator ends where the curve does.
+    Arguments as for `continue_equilibria`, in one direction. Special points are of the class `SpecialPoint`, without
+    a label; the iterator ends where the curve does.
     """
     within = clock.allowance(make_settings(options).max_seconds)
     with within():

@@ -67,7 +67,7 @@ def _hash(text: str) -> str:
 def page(document: Mapping[str, Any] | None, connect: Sequence[str] = ()) -> str:
     """Return a document as a page; without one, a page that asks its server for it, at one of `connect`."""
     script, style = bundle()
-    licences = (_FOLDER / "LICENSES.txt").read_text(encoding="utf-8").replace("<", "&lt;")
+    licences = (_FOLDER / "THIRD_PARTY_LICENSES.txt").read_text(encoding="utf-8").replace("<", "&lt;")
     data = json.dumps(document, allow_nan=False, separators=(",", ":"), ensure_ascii=False)
     title = f"{document['title']} - mjcont" if document else "mjcont"
     return _HEAD.format(

@@ -17,7 +17,7 @@ from mjcont.numerics.equations.problem import Array, Equations, Values
 from mjcont.results.quantities import Observable, Parameter, check_name, column_of, finite_pair
 
 # what numerics and verbs ask of a model, and no user needs
-_ENGINE = frozenset(
+NOT_FOR_USERS = frozenset(
     """
     active admissible connections constrained coordinates declare_again
     by_one_call derivative_along difference_each differenced failure first_order follows_scale held holding
@@ -96,7 +96,7 @@ class Model(Equations):
 
     def __dir__(self) -> list[str]:
         """List what a user may use; the rest of the public methods is what the numerics ask for."""
-        return sorted(set(super().__dir__()) - _ENGINE)
+        return sorted(set(super().__dir__()) - NOT_FOR_USERS)
 
     def _repr_html_(self) -> str:
         """Return the summary as a notebook shows it."""

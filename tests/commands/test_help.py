@@ -66,8 +66,30 @@ def test_docs_prints_a_page_by_any_of_its_names(name: str, capsys: pytest.Captur
     assert capsys.readouterr().out.strip() == (ROOT / "docs" / "studies.md").read_text(encoding="utf-8").strip()
 
 
+def test_docs_says_where_the_pages_are(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["docs"]) == 0
+    assert f"They are in {ROOT / 'docs'};" in capsys.readouterr().out
+    assert main(["docs", "--path", "theory"]) == 0
+    assert capsys.readouterr().out.strip() == str(ROOT / "docs" / "theory.md")
+
+
+@pytest.mark.parametrize(
+    ("topic", "said"),
+    [
+        (["fold"], "Fold\n\nLP, a limit point"),
+        (["Hopf", "point"], "Hopf point\n\nHB: "),
+        (["load_path"], "mjcont.load_path("),
+        (["mc.Branch.at"], "Return the points"),
+        (["Mechanism"], "  .declare "),
+    ],
+)
+def test_docs_explains_words_and_names(topic: list[str], said: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["docs", *topic]) == 0
+    assert said in capsys.readouterr().out
+
+
 def test_an_unknown_page_suggests_one(fails: Fails) -> None:
-    assert "unknown page 'study'. Did you mean studies?" in fails("docs", "study")
+    assert "unknown page 'studie'. Did you mean studies?" in fails("docs", "studie")
 
 
 def test_pages_that_messages_name_are_there() -> None:
@@ -121,5 +143,12 @@ def test_the_page_of_the_index_has_nothing_that_is_not_there(index_page: ModuleT
     page = index_page.page((ROOT / "README.md").read_text(encoding="utf-8"))
     assert "![" not in page
     assert not re.search(r"\]\((?!https?:)", page)
-    assert "docs/theory.md" in page
-    assert "mjcont inspect overcentre" in page
+    assert "(`mjcont docs theory`)" in page
+    assert "mjcont run overcentre" in page
+
+
+def test_with_an_address_the_index_shows_pictures_and_follows_links(index_page: ModuleType) -> None:
+    page = index_page.page("![gear](docs/images/a.gif) [theory](docs/theory.md) [M](https://m.org/x)", "https://h.org/raw/")
+    assert page == (
+        "![gear](https://h.org/raw/docs/images/a.gif) [theory](https://h.org/raw/docs/theory.md) [M](https://m.org/x)"
+    )

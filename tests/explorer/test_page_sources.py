@@ -32,7 +32,7 @@ def test_no_function_is_longer_than_60_lines():
 
 
 def test_the_bundle_says_whose_code_is_in_it():
-    text = (WEB / "dist" / "LICENSES.txt").read_text(encoding="utf-8")
+    text = (WEB / "dist" / "THIRD_PARTY_LICENSES.txt").read_text(encoding="utf-8")
     assert all(name in text for name in ("three 0.187.0 (MIT)", "d3-scale 4.0.2 (ISC)", "d3-zoom 3.0.0 (ISC)"))
 
 

@@ -24,7 +24,7 @@ async function built() {
   return {
     "explorer.js": script.outputFiles[0].text,
     "explorer.css": style.outputFiles[0].text,
-    "LICENSES.txt": licences(script.metafile),
+    "THIRD_PARTY_LICENSES.txt": licences(script.metafile),
   };
 }
 

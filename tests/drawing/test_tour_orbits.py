@@ -1,4 +1,4 @@
-"""The README's example of periodic motion does what it says."""
+"""The example of periodic motion in the tour does what it says."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from PIL import Image
 
 import mjcont as mc
 
-README = Path(__file__).parent.parent.parent / "README.md"
+TOUR = Path(__file__).parents[2] / "docs" / "tour.md"
 
 
 @pytest.mark.long
 def test_the_example_draws_cycles_and_a_resonance_that_are_checked(tmp_path, monkeypatch, capsys):
-    blocks = re.findall(r"```python\n(.*?)```", README.read_text("utf-8"), re.S)
+    blocks = re.findall(r"```python\n(.*?)```", TOUR.read_text("utf-8"), re.S)
     (code,) = [block for block in blocks if "continue_cycles(" in block]
     monkeypatch.chdir(tmp_path)
     names = {"mc": mc}
