@@ -293,7 +293,7 @@ class VectorField(Model):
 
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables for states (m, n), shape (m, number of names)."""
-        chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
+        chosen = list(self.observables.values()) if names is None else [self.observable(n) for n in names]
         per_row = [values] * len(states) if isinstance(values, Mapping) else values
         return np.array([[_measured(o, v, x) for o in chosen] for x, v in zip(states, per_row, strict=True)])
 

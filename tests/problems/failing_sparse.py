@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from mjcont.numerics.equations import bends, bordered, columns, onfolds
+from mjcont.numerics.equations import algebra, bends, bordered, columns, onfolds
 from mjcont.numerics.points import normalform, on_equilibria
 from mjcont.numerics.spectra import large
 from problems.failing import Bad
@@ -48,10 +48,12 @@ def on_fold(bad, build):
 
 
 CASES = {
+    "algebra.right_singular": lambda m: algebra.right_singular(np.full((m.n + 2, 2), FILLS[m.kind][0])),
     "bends.bend": lambda m: bends.bend(m.field.local, m.field.system, m.field.y, m.field.v, m.field.v, order=2),
     "bends.bends_itself": lambda m: bends.bends_itself(m.field.local),
     "bends.reach_of": lambda m: bends.reach_of(m.field.local, math.nan * m.field.v),
     "bordered.null_pair": lambda m: bordered.null_pair(m.matrix.astype(complex)),
+    "bordered.sparse_factors": lambda m: bordered.sparse_factors(m.matrix),
     "columns.weighted": lambda m: columns.weighted(m.matrix, np.zeros(m.n), np.full(m.n, math.inf)),
     "large.nearest": lambda m: [large.nearest(m.matrix, place) for place in (0.0, 1j, math.nan)],
     "large.rightmost": lambda m: [large.rightmost(m.matrix, symmetric) for symmetric in (False, True)],
