@@ -364,7 +364,7 @@ class VectorField(SideBySide):
 
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables for states (m, n), shape (m, number of names)."""
-        chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
+        chosen = list(self.observables.values()) if names is None else [self.observable(n) for n in names]
         found = np.empty((len(states), len(chosen)))
         per_row = [values] * len(states) if isinstance(values, Mapping) else values
         for k, o in enumerate(chosen):

@@ -43,7 +43,7 @@ _BARREN = 8
 _SINGULAR = 1e-9
 _CONTINUUM = 20
 _ROUNDS_FOR_NONE = 3
-_UNEVEN = 1.0 / math.e
+_UNEVEN, _MOST_UNKNOWNS = 1.0 / math.e, 1000
 
 
 @checked
@@ -92,7 +92,7 @@ def find_equilibria(
     Raises
     ------
     NameLookupError, ParameterError, BoundsError
-        See their messages. Finding none is no error but the result's status.
+        See their messages; also for more than 1000 unknowns. Finding none is no error but the result's status.
     """
     for name, number in (("starts", starts), ("max_solutions", max_solutions)):
         if number < 1:
@@ -110,6 +110,11 @@ def find_equilibria(
 
 def _prepare(problem: Model, values: dict[str, float], region: Region | None) -> _Search:
     """Return a search that has not begun."""
+    if problem.n > _MOST_UNKNOWNS:
+        raise ParameterError(
+            f"find_equilibria takes dense matrices of many starts at once, of up to {_MOST_UNKNOWNS} unknowns; "
+            f"{problem.name} has {problem.n}: use find_equilibrium from a state, and continue_equilibria from there"
+        )
     ranges = _ranges(problem, region)
     home = problem.start_state()
     held, notes = hold_rigid_modes(problem, home, values)
@@ -127,8 +132,7 @@ def _parameter_values(problem: Model, params: Mapping[str, float] | Point | None
         raise ParameterError(f"params must be a dict of parameter values or a point, got {type(params).__name__}")
     if isinstance(params, Point):
         params = {k: v for k, v in params.parameters.items() if k in problem.parameters or ":" in k}
-    values: dict[str, float] = problem.values(params)
-    return values
+    return problem.values(params)
 
 
 def _ranges(problem: Model, region: Region | None) -> dict[str, tuple[float, float]]:

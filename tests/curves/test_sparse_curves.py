@@ -10,6 +10,7 @@ from problems.fields import far_from_normal
 from scipy import sparse
 
 import mjcont as mc
+from mjcont.numerics.search.creep import creep
 
 ON_A_GRID = 150
 
@@ -78,6 +79,21 @@ def test_the_locus_of_a_sparse_hopf_point_has_its_generalised_one(bautin_branch)
     assert np.abs(locus["b1"]).max() < 1e-10
     (found,) = locus.special_points
     assert (found.kind, found["b2"]) == ("GH", pytest.approx(0.0, abs=1e-7))
+
+
+@pytest.mark.parametrize("n", [20, ON_A_GRID])
+def test_a_pair_far_out_on_the_axis_that_passes_it_is_found_beside_slow_modes(n):
+    slow = sparse.diags(-np.linspace(0.01, 1.0, n))
+
+    def jacobian(u, p):
+        return sparse.block_diag([slow, [[p["p"], -10.0], [10.0, p["p"]]]], format="csc")
+
+    field = mc.VectorField(lambda u, p: jacobian(u, p) @ u, np.zeros(n + 2), {"p": -0.5}, jacobian=jacobian)
+    branch = mc.continue_equilibria(field, "p", bounds=(-0.5, 0.5))
+    (hopf,) = branch.special_points
+    assert (hopf.kind, hopf["p"]) == ("HB", pytest.approx(0.0, abs=1e-10))
+    assert hopf.coefficients["omega"] == pytest.approx(10.0, rel=1e-10)
+    assert set(branch.n_unstable) == {0, 2} and branch.notes == ()
 
 
 def takens(u, p):
@@ -155,6 +171,21 @@ def test_a_pitchfork_of_a_sparse_field_is_found_with_its_coefficient():
     (found,) = branch.special_points
     assert (found.kind, found["mu"]) == ("BP", pytest.approx(0.0, abs=1e-10))
     assert found.coefficients["c"] == pytest.approx(-2.0, rel=1e-6)
+
+
+def large_diffusion(n):
+    line = chain(n)
+    return mc.VectorField(lambda u, p: line @ u + p["p"], np.zeros(n), {"p": 0.0}, jacobian=lambda u, p: line)
+
+
+def test_a_search_refuses_more_unknowns_than_dense_matrices_hold():
+    with pytest.raises(mc.ParameterError, match=r"up to 1000 unknowns.*has 3000.*find_equilibrium"):
+        mc.find_equilibria(large_diffusion(3000))
+
+
+def test_a_creeping_motion_refuses_more_unknowns_than_modes_can_be_taken():
+    field = large_diffusion(3000)
+    assert "up to 1000 unknowns; there are 3000" in str(creep(field, np.ones(3000), field.values()).failure)
 
 
 @pytest.mark.slow

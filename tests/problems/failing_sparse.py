@@ -9,7 +9,9 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from mjcont.numerics.equations import bends, bordered, coloured, columns, differences, frozen, onfolds
+from mjcont.numerics.equations import (
+    algebra, bends, bordered, coloured, columns, differences, frozen, onfolds,
+)
 from mjcont.numerics.points import normalform, on_equilibria
 from mjcont.numerics.spectra import large
 from problems.failing import Bad
@@ -65,10 +67,12 @@ def slopes(b, motions):
 
 
 CASES = {
+    "algebra.right_singular": lambda m: algebra.right_singular(np.full((m.n + 2, 2), FILLS[m.kind][0])),
     "bends.bend": lambda m: bends.bend(m.field.local, m.field.system, m.field.y, m.field.v, m.field.v, order=2),
     "bends.bends_itself": lambda m: bends.bends_itself(m.field.local),
     "bends.reach_of": lambda m: bends.reach_of(m.field.local, math.nan * m.field.v),
     "bordered.null_pair": lambda m: bordered.null_pair(m.matrix.astype(complex)),
+    "bordered.sparse_factors": lambda m: bordered.sparse_factors(m.matrix),
     "coloured.Coloured": lambda m: [found(m.field, part * m.field.sparse_jac) for part in (0.0, 1.0)],
     "columns.weighted": lambda m: columns.weighted(m.matrix, np.zeros(m.n), np.full(m.n, math.inf)),
     "frozen.parameter_slope": lambda m: frozen.parameter_slope(lambda at: float(at.f[0]), m.field.local, "p"),

@@ -75,6 +75,14 @@ def singular(matrix: Array) -> tuple[Array, Array, Array]:
         return u, np.full(min(m, n), np.nan), vt
 
 
+def right_singular(matrix: Array) -> Array:
+    """Return the right singular vectors as rows, (n, n), of a matrix (m, n) with m >= n; NaN where it has none.
+
+    A tall matrix has no square one of m rows made beside it.
+    """
+    return _defined(lambda a: np.linalg.svd(a, full_matrices=False)[2], matrix, like=matrix[: matrix.shape[1]])
+
+
 def eigenvalues(matrix: Array) -> Array:
     """Return the eigenvalues of a matrix (n, n) or a stack, complex; NaN where it has none."""
     return _stacked(np.linalg.eigvals, matrix).astype(complex)

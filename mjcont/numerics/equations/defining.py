@@ -21,7 +21,7 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.equations import frozen
-from mjcont.numerics.equations.algebra import singular
+from mjcont.numerics.equations.algebra import right_singular
 from mjcont.numerics.equations.bends import REACH, bend, bends_itself, reach_of
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, row_scale
 from mjcont.numerics.equations.columns import weighted
@@ -272,7 +272,8 @@ class Hopf(Condition):
         at = system.place(self)
         k = self.square(y[at : at + 1]) / self.inner / self.inner
         factored = Factored(self._bordered(local, k))
-        ends = np.eye(2 * n + 2)[-2:]
+        ends = np.zeros((2, 2 * n + 2))
+        ends[0, -2] = ends[1, -1] = 1.0
         right, left = factored.solve(ends[0]), np.array([factored.solve_transposed(e) for e in ends])
         q = right[: 2 * n].reshape(2, n)
         p = left[:, : 2 * n].reshape(2, 2, n) * self.rows
@@ -310,9 +311,9 @@ def _generator(even: Array, odd: Array, k: float) -> Array:
     for which one or the other multiple is largest both are large; as k vanishes it becomes the first choice.
     """
     if k >= 0.0:
-        return np.asarray(singular(even)[2][0])
+        return right_singular(even)[0]
     a = float(np.sqrt(-k))
-    one, other = (singular(even + s * odd)[2][0] for s in (a, -a))
+    one, other = (right_singular(even + s * odd)[0] for s in (a, -a))
     middle = one + other if one @ other >= 0.0 else one - other
     return np.asarray(middle / np.linalg.norm(middle))
 

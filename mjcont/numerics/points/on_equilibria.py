@@ -230,6 +230,8 @@ class HopfDetector:
         result = bisect(self.system, old, new, self._differs, self._settle, self.settings)
         if result is None:
             return Found()
+        if difference > 1 and not spectrum_of(old).complete:
+            result.note = f"{difference} pairs of eigenvalues reach the axis here together: l1 is that of one motion"
         return Found((), [result]) if result.kind == "NS" else Found([result])
 
     def _halves(

@@ -26,6 +26,7 @@ _RESTS = 1e-9
 _LONGEST = 60.0
 # rates below this count as it: the longest dt is a number still
 _SLOWEST = 1e-100
+_MOST = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +74,9 @@ def creep(
         local = Local(problem, x, values, (), False)
         if not np.all(np.isfinite(local.f)):
             return Crept(x, steps, Refused(Why.UNDEFINED, "the creeping motion left the domain of f"))
+        if problem.n > _MOST:
+            sentence = f"the creeping motion takes all modes, of up to {_MOST} unknowns; there are {problem.n}"
+            return Crept(x, steps, Refused(Why.UNSETTLED, sentence))
         s, vectors, g = rates(local)
         if not (np.isfinite(s).all() and np.isfinite(g).all()):
             sentence = "the creeping motion has no rates where it is: df/dx or the mass is singular there"

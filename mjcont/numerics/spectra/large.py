@@ -26,6 +26,7 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigs, eigsh, splu
 
 from mjcont.numerics.equations.algebra import eigenvalues, solve, symmetric_eigenvalues
+from mjcont.numerics.equations.bordered import sparse_factors
 from mjcont.numerics.equations.problem import Array
 
 # eigenvalues nearest zero that are always sought; most at a place; places looked at; directions left to look along
@@ -231,8 +232,10 @@ def _shift_invert(jac: Any, place: complex, count: int) -> tuple[Array, Array]:
     if abs(shift.imag) <= _BESIDE * abs(shift):
         shift = shift.real
     shifted = sparse.csc_matrix(jac - shift * sparse.identity(n, format="csc"))
+    factors = sparse_factors(shifted)
+    if factors is None:
+        return np.zeros(0, dtype=complex), np.zeros((n, 0), dtype=complex)
     try:
-        factors = splu(shifted)
         inverse = LinearOperator((n, n), factors.solve, dtype=shifted.dtype)
         inverted, vectors = eigs(inverse, k=count, v0=_start(n).astype(shifted.dtype))
     except (ArpackError, RuntimeError, ValueError):
