@@ -241,6 +241,7 @@ CASES = {
     "frozen.parameter_slope": lambda b: frozen.parameter_slope(lambda at: float(at.f[0]), b.local, "p"),
     "frozen.Motion": lambda b: frozen.Motion(0.0 * b.v, b.v, b.v, 1.0).forces(b.local, b.v[None], np.ones(1)),
     "frozen.hopf_motions": lambda b: frozen.hopf_motions(np.zeros((2, b.n)), math.nan, 0.0),
+    "frozen.crossing": lambda b: frozen.crossing(b.local, b.system, b.y, np.zeros((b.n + 1, 2)), b.v),
     "frozen.gradient": lambda b: frozen.gradient(
         b.local, b.system, b.y, frozen.hopf_motions(np.zeros((2, b.n)), 0.0, 1.0), np.zeros((2, 2, b.n))
     ),
