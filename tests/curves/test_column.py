@@ -113,6 +113,15 @@ def test_a_column_of_any_number_of_links_buckles_at_the_closed_form(count):
 
 
 @pytest.mark.slow
+def test_a_branch_point_costs_evaluations_in_proportion_to_the_number_of_links():
+    few, many = (mc.Mechanism.from_xml(column(count)) for count in (24, 48))
+    for mechanism in (few, many):
+        (point,) = mc.continue_equilibria(mechanism, "P", bounds=(0.0, 6.0 / mechanism.n**2)).special_points
+        assert point["P"] == pytest.approx(4.0 * math.sin(math.pi / (4 * mechanism.n)) ** 2, rel=1e-10)
+    assert many.evaluations < 3.0 * few.evaluations
+
+
+@pytest.mark.slow
 def test_with_many_links_the_buckling_load_tends_to_eulers():
     # EI = k l, L = N l = 1; the relative error is pi^2 / (48 N^2) to leading order
     for count in (8, 16):

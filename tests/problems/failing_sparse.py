@@ -66,6 +66,11 @@ def slopes(b, motions):
     return frozen.gradient(b.local, b.system, b.y, motions, np.zeros((2, 2, b.n)))
 
 
+def crossing(b, kernel):
+    """Return the gradient of a branch point's conditions with this kernel."""
+    return frozen.crossing(b.local, b.system, b.y, kernel, b.v)
+
+
 CASES = {
     "algebra.right_singular": lambda m: algebra.right_singular(np.full((m.n + 2, 2), FILLS[m.kind][0])),
     "bends.bend": lambda m: bends.bend(m.field.local, m.field.system, m.field.y, m.field.v, m.field.v, order=2),
@@ -78,6 +83,7 @@ CASES = {
     "frozen.parameter_slope": lambda m: frozen.parameter_slope(lambda at: float(at.f[0]), m.field.local, "p"),
     "frozen.hopf_motions": lambda m: frozen.hopf_motions(np.zeros((2, m.field.n)), math.nan, 0.0),
     "frozen.Motion": lambda m: moved(m.field, frozen.Motion(0.0 * m.field.v, m.field.v, m.field.v, 1.0)),
+    "frozen.crossing": lambda m: crossing(m.field, np.zeros((m.field.n + 1, 2))),
     "frozen.gradient": lambda m: slopes(m.field, frozen.hopf_motions(np.zeros((2, m.field.n)), 0.0, 1.0)),
     "large.nearest": lambda m: [large.nearest(m.matrix, place) for place in (0.0, 1j, math.nan)],
     "large.positive_count": lambda m: large.positive_count(m.matrix),

@@ -30,8 +30,6 @@ from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.equations.system import ROW_GUARD, Condition, Local, System, equation_scale
 
-# step of a mixed difference, in scaled unknowns
-_BEND_STEP = 3e-4
 _SLOW_TIME = 0.1
 # rates below this, in 1/s, count as it: their squares are numbers still
 _SLOWEST = 1e-150
@@ -92,36 +90,6 @@ class Fold(Condition):
         self._cache = None
 
 
-def _bend(system: System, local: Local, y: Array, v: Array) -> Array | None:
-    """Return the derivatives of (f_x, f_u) v in every scaled coordinate and free parameter, (n + number free, n).
-
-    u is the coordinate of the first free parameter, v (n + 1,). 4 n evaluations and four for each parameter; None where
-    one would leave its bounds.
-    """
-    n, scale = system.n, system.problem.state_scale
-    h = _BEND_STEP / float(np.abs(v).max())
-    unit, along = np.eye(system.k), h * v[:n] * scale
-    ahead = h * v[n] * unit[0]
-    sides = [system.gradient_step(i, y) * unit[i] for i in range(len(system.free))]
-    reach = np.abs(ahead) + np.sum(sides, axis=0)
-    if np.any((y - reach < system.lowest) | (y + reach > system.highest)):
-        return None
-
-    def across(aside: Array, rows: Array) -> Array:
-        plus, minus = (
-            system.problem.residuals(local.x, system.values(y + sign * ahead + aside), rows + sign * along)
-            for sign in (1.0, -1.0)
-        )
-        return plus - minus
-
-    e = _BEND_STEP * np.diag(scale)
-    change, found = across(np.zeros(system.k), np.concatenate([e, -e])), np.empty((n + len(sides), n))
-    found[:n] = (change[:n] - change[n:]) / (4.0 * _BEND_STEP * h)
-    for i, side in enumerate(sides):
-        found[n + i] = (across(side, np.zeros((1, n))) - across(-side, np.zeros((1, n))))[0] / (4.0 * side[i] * h)
-    return found
-
-
 class BranchPoint(Condition):
     """[J f_p] has rank n - 1, with the equilibrium equations unfolded by a: f + a d = 0.
 
@@ -174,8 +142,8 @@ class BranchPoint(Condition):
 
         None where differences of the matrices themselves are to be taken, or a product would leave the bounds.
         """
-        itself = bends_itself(local)
-        if local.problem.second_order or (local.problem.own_jacobian and not itself):
+        problem, itself = local.problem, bends_itself(local)
+        if not itself and (problem.own_jacobian or (problem.second_order and problem.nonsmooth)):
             return None
         right, left, _ = self._solve(local)
         if itself:
@@ -183,9 +151,8 @@ class BranchPoint(Condition):
             if not system.lowest[0] + reach <= y[0] <= system.highest[0] - reach:
                 return None
             return np.array([-bend(local, system, y, left * self.rows, v) for v in right.T])
-        bends = [_bend(system, local, y, v) for v in right.T]
-        found = [-bend @ (left * self.rows) for bend in bends if bend is not None]
-        return np.array(found) if len(found) == len(bends) else None
+        found = frozen.crossing(local, system, y, right, left * self.rows)
+        return None if found is None else -found
 
     def update(self, local: Local, aux: Array) -> None:
         """Take the present null vectors as borders."""

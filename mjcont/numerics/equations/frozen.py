@@ -8,12 +8,15 @@ f(x, v) - M(x) a along the motion v = s x, a = s^2 x that q = q0 + s q1 stands f
     odd part     dx = q1,  dv =    q0,  da = -k q1
 
 so that every coordinate is moved once, at four evaluations a part, instead of differences of K, C and M as a whole.
+Those of a branch point are derivatives of H v, H = [f_x f_p], likewise, v in its kernel.
+
 Their error with stiff bushes is about k step^2. It matters where Newton's method moves, along the curves that the free
 parameters make of the equilibrium: there the derivative is replaced by one of sixth order.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -124,6 +127,81 @@ def _product(local: Local, motion: Motion, exact: bool) -> Array:
     rows = motion.forces(local, np.zeros((len(nodes), local.problem.n)), h * nodes)
     assert rows is not None
     found: Array = weights @ rows / h
+    return found
+
+
+def crossing(local: Local, system: System, y: Array, kernel: Array, left: Array) -> Array | None:
+    """Return w . d(H v) for vectors v, the columns of a kernel (n + 1, k) of H = [f_x f_u], (k, n + number free).
+
+    Of a second-order problem the derivatives along these vectors are of sixth order: in the plane that they span
+    Newton's method moves to a crossing of curves. None where parameters would leave their bounds.
+    """
+    bends = [_bend(local, system, y, v) for v in kernel.T]
+    found = np.array([bend @ left for bend in bends if bend is not None])
+    if len(found) < len(bends):
+        return None
+    if local.problem.second_order:
+        known = _curvatures(local, system, y, kernel)
+        if known is None:
+            return None
+        ways = np.zeros((system.n + len(system.free), kernel.shape[1]))
+        ways[: system.n + 1] = kernel
+        found = found + (known @ left - found @ ways) @ np.linalg.pinv(ways)
+    return found
+
+
+def _curvatures(local: Local, system: System, y: Array, kernel: Array) -> Array | None:
+    """Return the second derivatives of f in pairs of vectors of (x, u), (k, k, n), of sixth order, by polarization."""
+    n, free = system.n, system.free[0]
+    every = [v / (float(np.abs(v).max()) or 1.0) for v in kernel.T]
+    reach = float(NODES.max()) * _ALONG * 2.0
+    if not np.isfinite(kernel).all() or y[0] - reach < system.lowest[0] or y[0] + reach > system.highest[0]:
+        return None
+
+    def along(v: Array) -> Array:
+        t = _ALONG * NODES
+        states = local.problem.retract_each(local.x, t[:, None] * v[:n] * local.problem.state_scale)
+        column = np.array([free.value(float(y[0]) + part * float(v[n])) for part in t])
+        rows = local.problem.residuals_along(states, local.values, free.name, column)
+        curvature: Array = SECOND @ rows / _ALONG**2
+        return curvature
+
+    sizes = np.abs(kernel).max(axis=0)
+    found = np.empty((len(every), len(every), n))
+    for i, j in itertools.combinations_with_replacement(range(len(every)), 2):
+        u, v = every[i], every[j]
+        mixed = along(u) if i == j else 0.25 * (along(u + v) - along(u - v))
+        found[i, j] = found[j, i] = sizes[i] * sizes[j] * mixed
+    return found
+
+
+def _bend(local: Local, system: System, y: Array, v: Array) -> Array | None:
+    """Return the derivatives of (f_x, f_u) v in every scaled coordinate and free parameter, (n + number free, n).
+
+    u is the coordinate of the first free parameter, v (n + 1,). 4 n evaluations and four for each parameter; None where
+    one would leave its bounds.
+    """
+    n, scale = system.n, system.problem.state_scale
+    h = _MIXED / (float(np.abs(v).max()) or 1.0)
+    unit, along = np.eye(system.k), h * v[:n] * scale
+    ahead = h * v[n] * unit[0]
+    sides = [system.gradient_step(i, y) * unit[i] for i in range(len(system.free))]
+    reach = np.abs(ahead) + np.sum(sides, axis=0)
+    if np.any((y - reach < system.lowest) | (y + reach > system.highest)):
+        return None
+
+    def across(aside: Array, rows: Array) -> Array:
+        plus, minus = (
+            system.problem.residuals(local.x, system.values(y + sign * ahead + aside), rows + sign * along)
+            for sign in (1.0, -1.0)
+        )
+        return plus - minus
+
+    e = _MIXED * np.diag(scale)
+    change, found = across(np.zeros(system.k), np.concatenate([e, -e])), np.empty((n + len(sides), n))
+    found[:n] = (change[:n] - change[n:]) / (4.0 * _MIXED * h)
+    for i, side in enumerate(sides):
+        found[n + i] = (across(side, np.zeros((1, n))) - across(-side, np.zeros((1, n))))[0] / (4.0 * side[i] * h)
     return found
 
 
