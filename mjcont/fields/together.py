@@ -85,11 +85,11 @@ class SideBySide(Model):
         """Whether df/du is sparse, as it is at the start."""
         return self.own_jacobian and sparse.issparse(self.linearize(self.start_state(), self.values(), ()).jac)
 
-    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return f at states (m, n), a parameter having a value of its own in each (m,), shape (m, n)."""
+    def residuals_along(self, states: Array, values: Values, columns: Mapping[str, Array]) -> Array:
+        """Return f at states (m, n), parameters having values of their own in each (m,), by name, shape (m, n)."""
         if not self.vectorized:
-            return super().residuals_along(states, values, name, column)
-        return self.rates_together(states, {**values, name: column})
+            return super().residuals_along(states, values, columns)
+        return self.rates_together(states, {**values, **columns})
 
     def linearize_along(
         self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
