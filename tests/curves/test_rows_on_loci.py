@@ -1,4 +1,4 @@
-"""Rows between the points of loci and of load paths: special points and rests like any other, as close as chords need."""
+"""Rows between the points of loci and of load paths: special points and rests like any other, as close as asked."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+
 import mjcont as mc
 from mjcont.numerics.equations.defining import Fold
 from mjcont.numerics.equations.free import Free

@@ -62,3 +62,20 @@ def test_straight_lines_from_row_to_row_stay_close_to_the_curve_of_a_vectorized_
     widths, slopes = np.diff(p), (p[1:] + p[:-1]) / math.sqrt(1.25)
     off = 0.25 * widths**2 / np.sqrt(1.0 + slopes**2)
     assert 1e-6 < off.max() < 3.05e-6
+
+
+def test_a_diagram_of_the_reaction_takes_few_calls_and_evaluations():
+    """491 rows with both Hopf points: 199 calls at most over five kernels of BLAS, 3,399 evaluations; 15 % more here."""
+    calls = []
+
+    def f(u, p):
+        calls.append(u.shape[1] if u.ndim == 2 else 1)
+        rate = p["D"] * (1.0 - u[0]) * np.exp(u[1])
+        return [-u[0] + rate, -4.0 * u[1] + p["B"] * rate]
+
+    field = mc.VectorField(f, [0.0, 0.0], {"D": 0.0, "B": 14.0}, vectorized=True)
+    branch = mc.continue_equilibria(field, "D", (0.0, 0.4), direction=1)
+    assert [p.kind for p in branch.special_points] == ["HB", "HB"]
+    assert len(branch) > 400
+    assert len(calls) < 229 and sum(calls) < 3909
+    assert sum(calls) == field.evaluations
