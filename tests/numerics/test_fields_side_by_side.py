@@ -65,7 +65,7 @@ def test_straight_lines_from_row_to_row_stay_close_to_the_curve_of_a_vectorized_
 
 
 def test_a_diagram_of_the_reaction_takes_few_calls_and_evaluations():
-    """491 rows with both Hopf points: 199 calls at most over five kernels of BLAS, 3,399 evaluations; 15 % more here."""
+    """491 rows with both Hopf points: at most 199 calls and 3,399 evaluations over five kernels of BLAS; 15 % more."""
     calls = []
 
     def f(u, p):
