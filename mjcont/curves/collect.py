@@ -250,7 +250,7 @@ def _columns(rows: CurveRows, problem: Model, unit_of: Mapping[str, str]) -> dic
 
 def _judged(kind: str, special: Located | None, s: Spectrum) -> tuple[str, int]:
     """Return stability and number of unstable eigenvalues of a row of a curve of a kind."""
-    at = _kind_at(kind, special)
+    at = _kind_at(kind, special) if special is not None or kind != "equilibria" else ""
     return verdict_at(KINDS[at].holds, s) if at else (s.stability, s.n_unstable)
 
 

@@ -16,6 +16,8 @@ from mjcont.results.model import Model
 
 # values beside a parameter's own at which its derivative asks for f
 _BESIDE = 4
+# unknowns up to which matrices of many points are held, and numbers that are asked for in one call at most
+_MOST, _NUMBERS = 200, 2**21
 
 # f (m, n) at states (m, n), values of parameters being numbers or (m,)
 Rates = Callable[[Array, Mapping[str, Any]], Array]
@@ -76,9 +78,9 @@ class SideBySide(Model):
         """Return f at states (m, n), (m, n); parameter values and times are numbers, or (m,) where they differ."""
 
     def side_by_side(self, name: str) -> bool:
-        """Whether the function takes many states at once, and matrices are dense."""
+        """Whether the function takes many states at once, and matrices are dense and not too large."""
         del name
-        return self.vectorized and not self._sparse
+        return self.vectorized and self.n <= _MOST and not self._sparse
 
     @cached_property
     def _sparse(self) -> bool:
@@ -98,7 +100,11 @@ class SideBySide(Model):
         if not self.side_by_side(name):
             return None
         if self.differenced:
-            f, jac, par = self._linearized(states, values, {name: column}, {name: bounds})
+            many, parts = max(_NUMBERS // (self.n * (5 + 4 * self.n)), 1), list[tuple[Array, Array, Array]]()
+            for first in range(0, len(states), many):
+                part = slice(first, first + many)
+                parts.append(self._linearized(states[part], values, {name: column[part]}, {name: bounds}))
+            f, jac, par = (np.concatenate(each) for each in zip(*parts, strict=True))
             return f, jac, par[:, :, 0]
         every = [
             self.linearize(x, {**values, name: v}, (name,), ranges=(bounds,))

@@ -50,6 +50,20 @@ def test_many_random_fields_together_have_the_points_and_the_stability_that_they
     assert {seed: found for seed in range(first, first + 20) if (found := run(seed, together=True))} == {}
 
 
+@pytest.mark.parametrize("vectorized", [False, True])
+def test_a_curve_ends_where_its_function_does_whatever_is_evaluated_together(vectorized):
+    """u = sqrt(1 - p) and its square: f has no value beyond p = 1, nor derivatives a difference step before it."""
+    def f(u, p):
+        return [np.sqrt(1.0 - p["p"] + 0.0 * u[0]) - u[0], u[0] ** 2 - u[1]]
+
+    field = mc.VectorField(f, [1.0, 1.0], {"p": 0.0}, vectorized=vectorized)
+    branch = mc.continue_equilibria(field, "p", (-1.0, 2.0))
+    assert branch.ends[0][0] == "at bound" and branch.ends[1][0] == "step too small"
+    assert 0.99 < branch["p"].max() <= 1.0
+    assert branch["u[1]"] == pytest.approx(1.0 - branch["p"], abs=1e-9)
+    assert not branch.special_points
+
+
 def test_straight_lines_from_row_to_row_stay_close_to_the_curve_of_a_vectorized_field():
     """u = (p, p^2), p over a range of 2: a parabola in the plane of (sqrt(5) / 2) p and p^2, its rows a width w apart.
 
