@@ -113,7 +113,7 @@ def test_the_compiled_reaction_is_the_one_in_python() -> None:
     alone, together = (cases.reaction(kind).problem for kind in ("", "compiled"))
     states, heats = np.array([[0.1, 0.2], [0.4, 1.4], [0.9, 3.0]]), np.array([0.0, 0.2, 0.4])
     for problem in (alone, together):
-        found = problem.residuals_along(states, problem.values(), "D", heats)
+        found = problem.residuals_along(states, problem.values(), {"D": heats})
         assert found == pytest.approx(np.array([[-0.1, -0.8], *rates(states[1:], heats[1:])]), rel=1e-14)
 
 

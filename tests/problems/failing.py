@@ -354,7 +354,7 @@ CASES = {
     "stability.spectrum_of": lambda b: stability.spectrum_of(b.point()),
     "stability.negative_stiffness": lambda b: stability.negative_stiffness(b.point()),
     "stability.spectra_of": lambda b: stability.spectra_of([]),
-    "stability.spectra_at": lambda b: stability.spectra_at(b.problem, b.x[None], [b.values], "p", (0.0, 1.0)),
+    "stability.spectra_at": lambda b: stability.spectra_at(b.problem, b.x[None], [b.values], {"p": (0.0, 1.0)}),
     "stability.verdicts": lambda b: stability.verdicts(b.pair, []),
     "stability.verdict_at": lambda b: [
         stability.verdict_at(k.holds, stability.local_spectrum(b.local)) for k in kinds.KINDS.values()
