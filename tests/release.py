@@ -27,12 +27,13 @@ from problems.pages import blocks, commands
 
 ROOT = Path(__file__).resolve().parent.parent
 EPOCH = "1767225600"  # 2026-01-01: any moment that does not move
+PATIENCE = 900  # s: for a page of tutorials on a crowded machine
 # what a page shows and no machine without a screen, or no minute, has room for
 NOT_TRIED = ("mjcont view", "mjcont report", "mjcont reproduce", "mjcont explore")
 TUTORIALS = ("engineer", "mujoco", "dynamicist", "bringing")
 FRAME = "import mjcont as mc; print(mc.load('out/equilibria.h5').to_dataframe().attrs['units'])"
-# what needs each extra, what must be said without it, and with it ("" where it then works)
-EXTRAS = {
+# what needs each extra, what must be said without it, and with it ("" where it then works, None: it serves)
+EXTRAS: dict[str, tuple[str, str, str | None]] = {
     "notebook": (f'python -c "{FRAME}"', "pip install 'mjcont[notebook]'", ""),
     "cluster": ("mjcont sweep gear_cusp_tolerances -o out/cluster --scheduler tcp://127.0.0.1:1",
                 "pip install 'mjcont[cluster]'", "no Dask scheduler answers at 'tcp://127.0.0.1:1'"),
@@ -110,9 +111,11 @@ class Environment:
 
     def run(self, command: str, fails: str = "") -> str:
         """Run a command; where it `fails`, that has to be in what it prints."""
-        done = subprocess.run(
-            ["bash", "-c", command], cwd=self.here, env=self.variables(), capture_output=True, text=True, check=False
-        )
+        options: Any = {"cwd": self.here, "env": self.variables(), "capture_output": True, "text": True}
+        try:
+            done = subprocess.run(["bash", "-c", command], check=False, timeout=PATIENCE, **options)
+        except subprocess.TimeoutExpired as error:
+            raise Failure(f"`{command}` did not end within {PATIENCE} s") from error
         said = done.stdout + done.stderr
         if fails and (done.returncode == 0 or fails not in said):
             raise Failure(f"`{command}` should say {fails!r}; status {done.returncode}: {said[-400:]}")
@@ -152,8 +155,10 @@ def check_installed(python: str, wheel: Path, folder: Path) -> None:
     (first,) = (b.text for b in blocks(ROOT / "README.md") if b.language == "python")
     (environment.here / "first.py").write_text(first, encoding="utf-8")
     environment.run("python first.py")
-    for extra, (command, without, then) in EXTRAS.items():
+    environment.run("python -m pip uninstall --quiet --yes websockets")  # MuJoCo 4.0's own viewer brings it, too
+    for command, without, _ in EXTRAS.values():
         environment.run(command, fails=without)
+    for extra, (command, _, then) in EXTRAS.items():
         environment.install(extra)
         if then is None:
             environment.serves()
