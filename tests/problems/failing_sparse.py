@@ -10,7 +10,14 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.numerics.equations import (
-    algebra, bends, bordered, coloured, columns, differences, frozen, onfolds,
+    algebra,
+    bends,
+    bordered,
+    coloured,
+    columns,
+    differences,
+    frozen,
+    onfolds,
 )
 from mjcont.numerics.points import normalform, on_equilibria
 from mjcont.numerics.spectra import large

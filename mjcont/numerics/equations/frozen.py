@@ -24,6 +24,7 @@ from typing import Any
 
 import numpy as np
 
+from mjcont.numerics.equations.bends import reach_of
 from mjcont.numerics.equations.bordered import Factored
 from mjcont.numerics.equations.differences import FIRST, NODES, SECOND, length_of
 from mjcont.numerics.equations.problem import Array
@@ -162,7 +163,7 @@ def _curvatures(local: Local, system: System, y: Array, kernel: Array) -> Array 
         t = _ALONG * NODES
         states = local.problem.retract_each(local.x, t[:, None] * v[:n] * local.problem.state_scale)
         column = np.array([free.value(float(y[0]) + part * float(v[n])) for part in t])
-        rows = local.problem.residuals_along(states, local.values, free.name, column)
+        rows = local.problem.residuals_along(states, local.values, {free.name: column})
         curvature: Array = SECOND @ rows / _ALONG**2
         return curvature
 
@@ -181,8 +182,8 @@ def _bend(local: Local, system: System, y: Array, v: Array) -> Array | None:
     u is the coordinate of the first free parameter, v (n + 1,). 4 n evaluations and four for each parameter; None where
     one would leave its bounds.
     """
-    n, scale = system.n, system.problem.state_scale
-    h = _MIXED / (float(np.abs(v).max()) or 1.0)
+    n, scale, typical = system.n, system.problem.state_scale, system.problem.typical
+    h = _MIXED / (reach_of(local, v) or 1.0)
     unit, along = np.eye(system.k), h * v[:n] * scale
     ahead = h * v[n] * unit[0]
     sides = [system.gradient_step(i, y) * unit[i] for i in range(len(system.free))]
@@ -197,9 +198,9 @@ def _bend(local: Local, system: System, y: Array, v: Array) -> Array | None:
         )
         return plus - minus
 
-    e = _MIXED * np.diag(scale)
+    e = _MIXED * np.diag(typical)
     change, found = across(np.zeros(system.k), np.concatenate([e, -e])), np.empty((n + len(sides), n))
-    found[:n] = (change[:n] - change[n:]) / (4.0 * _MIXED * h)
+    found[:n] = (change[:n] - change[n:]) / (4.0 * _MIXED * h) * (scale / typical)[:, None]
     for i, side in enumerate(sides):
         found[n + i] = (across(side, np.zeros((1, n))) - across(-side, np.zeros((1, n))))[0] / (4.0 * side[i] * h)
     return found
