@@ -74,6 +74,7 @@ def _fields() -> Iterator[tuple[str, Job]]:
     yield "brusselator", partial(_curve, fields.brusselator, "B", 0.5, 8.0)
     yield "bratu", partial(fields.branch_of_bratu.__wrapped__, 100)
     yield "brusselator in a tube", partial(_curve, lambda: fields.tube(10), "B", 1.0, 6.2)
+    yield "brusselator on many cells", partial(_curve, lambda: fields.tube(80), "B", 1.0, 5.3)
     for radius in (1.0, 1e-3):
         yield f"isola of radius {radius:g}", partial(_isola_entered_at_its_folds, radius)
     for gap, sign in ((0.1, 1.0), (1e-3, 1.0), (0.1, -1.0), (1e-3, -1.0)):
