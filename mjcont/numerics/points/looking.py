@@ -8,6 +8,7 @@ from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.balance import Balance, Piece, multiple
+from mjcont.numerics.points.calm import calm
 from mjcont.numerics.points.events import Detector, Found, Located
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.step.notes import Note
@@ -29,9 +30,9 @@ def look(
     """Return the special points between two points of the curve in order, or why the step is to be shorter."""
     structural = any(d.structural for d in detectors)
     located, neutral = list[Located](), list[Located]()
-    calm = CALM.get(new) is old
-    whole = calm or not structural
-    for piece in [Piece(old, new, quiet=calm)] if whole else Balance(system, settings).pieces(old, new):
+    quiet = CALM.get(new) is old or (structural and calm(system, old, new, settings))
+    whole = quiet or not structural
+    for piece in [Piece(old, new, quiet=quiet)] if whole else Balance(system, settings).pieces(old, new):
         found = _inside(piece, detectors)
         if isinstance(found, Refused):
             return found
