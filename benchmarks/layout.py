@@ -9,6 +9,7 @@ from benchmarks.book import FAILED, MISSING
 
 POINTS, CHAIN, DIAGRAM, MEMORY, JOBS = "points [us]", "chain [us]", "diagram [ms]", "memory [MB]", "jobs [s]"
 ORBITS, SWEEPS = "orbits [ms]", "cases of sweeps, CPU [ms]"
+DENSE = "a row of a dense field, CPU [LU factors of its size]"
 
 
 class Table:

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks import auto_peer, cases, compiled, jobs, orbits, peers, sweeps
+from benchmarks import auto_peer, cases, compiled, dense, jobs, orbits, peers, sweeps
 from benchmarks.book import FAILED, MISSING, Book, Job, Missing
 from benchmarks.chords import chord_error
-from benchmarks.layout import CHAIN, DIAGRAM, JOBS, MEMORY, ORBITS, POINTS, SWEEPS, Table
+from benchmarks.layout import CHAIN, DENSE, DIAGRAM, JOBS, MEMORY, ORBITS, POINTS, SWEEPS, Table
 from benchmarks.measure import machine, medians, seconds
 from benchmarks.points import Floor, growth, per_point, split
 
@@ -157,6 +157,8 @@ def plan(quick: bool, repeats: int) -> Iterator[Job]:
             yield Job(ORBITS, name, partial(orbits.compare, name, min(repeats, 5)))
     for name, job in (("nose gear, cusp", sweeps.cusps), ("overcentre, fold", sweeps.folds)):
         yield Job(SWEEPS, name, lambda tell, job=job: _median(job, 1 if quick else 3, tell))
+    for name, many in (("100 cells", False), ("100, vectorized", True)):
+        yield Job(DENSE, name, lambda tell, many=many: _median(partial(dense.factors_a_row, 100, many), 3, tell))
     if quick:
         return
     yield Job(MEMORY, "chain 80", lambda tell: jobs.memory(80))

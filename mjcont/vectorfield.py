@@ -249,6 +249,11 @@ class VectorField(SideBySide):
     # -- derivatives of the user's own -------------------------------------------------------------------------
 
     @property
+    def function(self) -> Callable[..., Any]:
+        """The user's f, as it was given or as another package's is called."""
+        return self._f.function
+
+    @property
     def jacobian(self) -> Callable[..., Any] | None:
         """The user's df/du, as it was given."""
         return self._given.jacobian

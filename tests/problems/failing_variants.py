@@ -14,9 +14,9 @@ from mjcont.numerics.equations.free import Free
 from mjcont.numerics.equations.problem import OneByOne
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
-from mjcont.numerics.points import alongside, balance, bundle, events, glance
+from mjcont.numerics.points import alongside, balance, bundle, calm, events, glance
 from mjcont.numerics.search import leastnorm
-from mjcont.numerics.spectra import abreast, spectrum, tracks
+from mjcont.numerics.spectra import abreast, inertia, spectrum, tracks
 from mjcont.numerics.step import arclength
 from problems.failing import FIELDS
 from problems.fields import by_columns
@@ -126,15 +126,38 @@ class BadRows:
             probe = abreast.Probe.of(square, square, mass, np.ones(self.n), self.parts)
             assert probe.strays(self.v, np.full(self.count, 0.5), followed).shape == (self.count,)
 
-    def glanced(self):
-        """Glance at a curve of a vectorized field, all its points in one place."""
-        field = mc.VectorField(by_columns(FIELDS[self.kind]), np.zeros(self.n), {"p": 0.0}, vectorized=True)
+    def chain(self, n):
+        """Return a curve of a vectorized field of n unknowns, and points of it, all in one place."""
+        field = mc.VectorField(by_columns(FIELDS[self.kind]), np.zeros(n), {"p": 0.0}, vectorized=True)
         curve = System(field, field.values(), [Free("p", -1.0, 1.0)])
-        x, y, tangent = np.zeros(self.n), np.zeros(1), np.append(np.zeros(self.n), 1.0)
-        chain = [
-            arclength.CurvePoint(x, y, tangent, 0.0, curve.local(x, y), None, 1e-3 * i) for i in range(3 * self.count)
+        x, y, tangent = np.zeros(n), np.zeros(1), np.append(np.zeros(n), 1.0)
+        return curve, [
+            arclength.CurvePoint(x, y, tangent, 1.0, curve.local(x, y), None, 1e-3 * i) for i in range(3 * self.count)
         ]
-        glance.glance(curve, chain, Settings())
+
+    def glanced(self):
+        """Glance at a curve."""
+        glance.glance(*self.chain(self.n), Settings())
+
+    def calmed(self):
+        """Look for a proof that nothing happens between points of many unknowns."""
+        curve, chain = self.chain(tracks.FEW)
+        for old, new in zip(chain, chain[1:], strict=False):
+            calm.calm(curve, old, new, Settings())
+            arclength.follows(new, old)
+
+    def seen(self):
+        """See bad matrices in the basis of a good one, and take the basis of bad ones."""
+        values, one = np.array([1.0 + 1j, 1.0 - 1j, -1.0]), np.eye(3, dtype=complex)
+        right = np.array([[1.0, 1.0, 0.0], [1j, -1j, 0.0], [0.0, 0.0, 1.0]])
+        good = tracks.Modes(one, values, right, right, np.zeros(3), np.ones(3, dtype=bool))
+        basis, bad = inertia.Basis.of(good), np.full((3, 3), self.fill)
+        seen = basis.seen(bad)
+        assert not basis.keeps(seen)
+        assert basis.values(seen).shape == (2,)
+        basis.sums_keep(basis.values(seen), basis.values(-seen))
+        worse = tracks.Modes(bad, np.full(3, self.fill + 0j), bad + 0j, bad + 0j, np.zeros(3), np.ones(3, dtype=bool))
+        assert inertia.Basis.of(worse) is None
 
     def moved(self):
         found = alongside.move(*self.placed, self.members)
@@ -179,11 +202,16 @@ CASES = {
     "directions.orient": lambda b: directions.orient(b.v),
     "directions.weighted": lambda b: directions.weighted(np.full(3, b.fill), b.of(3, b.n)),
     "balance.places_between": lambda b: balance.places_between(b.v, b.fill),
+    "balance.aside": BadRows.calmed,
+    "balance.strays_at": BadRows.calmed,
+    "calm.calm": BadRows.calmed,
     "differences.jacobians_from_rows": lambda b: differences.jacobians_from_rows(
         b.of(4 * b.n, b.n), np.ones(b.n), differences.FOURTH_ORDER
     ),
     "events.cubic": lambda b: events.cubic(b.fill, b.v, b.v, b.v),
     "glance.glance": BadRows.glanced,
+    "inertia.Basis": BadRows.seen,
+    "inertia.slope": lambda b: inertia.slope(b.fill, b.v, b.v, b.v),
     "leastnorm.least_norm": BadRows.shortest,
     "problem.OneByOne": lambda b: b.variants.residuals(b.members, b.of(2, b.n), b.of(2, b.k)),
     "spectrum.first_order_spectra": lambda b: spectrum.first_order_spectra(b.of(b.n, b.n), b.v + 0j),

@@ -9,7 +9,7 @@ is looked for by the product of the Jacobian with one vector, at one evaluation 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -19,7 +19,7 @@ from mjcont.numerics.equations.refusals import Refused
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.corner import loaded_at
-from mjcont.numerics.points.events import Located, between
+from mjcont.numerics.points.events import Located, cubic
 from mjcont.numerics.spectra.abreast import Probe, Tracks
 from mjcont.numerics.spectra.stability import spectrum_of
 from mjcont.numerics.spectra.tracks import Meeting, interpolated, meetings, motion_at, tracks
@@ -155,26 +155,32 @@ class Balance:
             modes.right[None], modes.left.conj().T[None], None if mass is None else mass[None],
             self.system.problem.state_scale, np.array(parts)[None],
         )
-        worst, where = 1.0, None
-        for t in (np.arange(count) + 1.0) / (count + 1.0):
-            share = self._share(a, b, probe, float(t), alone)
-            if share > worst:
-                worst, where = share, float(t)
-        return where
+        t = (np.arange(count) + 1.0) / (count + 1.0)
+        shares = strays_at(aside(self.system, a, b, probe.vector[0], t), probe, t, alone)
+        return float(t[shares.argmax()]) if shares.max() > 1.0 else None
 
-    def _share(self, a: CurvePoint, b: CurvePoint, probe: Probe, t: float, followed: Tracks) -> float:
-        """Return by how much an eigenvalue strays at a part of a piece, one where it is worth a point there."""
-        x, y, _ = between(self.system, a, b, t)
-        place = np.array([t])
 
-        def beside(step: float) -> Array:
-            return self.system.problem.residuals(x, self.system.values(y), step * probe.vector)
+def aside(system: System, a: CurvePoint, b: CurvePoint, vector: Array, t: Array) -> Callable[[float], Array]:
+    """Return what gives f at parts t (m,) of a piece, moved by a multiple of a vector (n,) there, (m, n)."""
+    problem, length = system.problem, b.s - a.s
+    steps = cubic(t[:, None], system.difference(b.x, b.y, a.x, a.y), length * a.tangent, length * b.tangent)
+    states, coordinates = system.move_each(a.x, np.tile(a.y, (len(t), 1)), steps)
+    values = [system.values(y) for y in coordinates]
 
-        ahead = beside(PROBE)
-        share = float(probe.strays(ahead / PROBE, place, followed)[0])
-        if share <= 1.0:  # f is nearly zero at the place itself; where this shows something the other side makes sure
-            return share
-        return float(probe.strays((ahead - beside(-PROBE)) / (2.0 * PROBE), place, followed)[0])
+    def beside(step: float) -> Array:
+        moved = problem.retract_each(states, np.tile(step * vector, (len(t), 1)))
+        return np.array([problem.residual(x, v) for x, v in zip(moved, values, strict=True)])
+
+    return beside
+
+
+def strays_at(beside: Callable[[float], Array], probe: Probe, t: Array, followed: Tracks) -> Array:
+    """Return by how much an eigenvalue strays at parts of a piece (m,), one where it is worth a point there."""
+    ahead = beside(PROBE)
+    shares = probe.strays(ahead / PROBE, t, followed)
+    if (shares > 1.0).any():  # f is nearly zero at the place itself; the other side makes sure
+        shares = np.minimum(shares, probe.strays((ahead - beside(-PROBE)) / (2.0 * PROBE), t, followed))
+    return shares
 
 
 def places_between(length: float | Array, longest: float) -> Array:

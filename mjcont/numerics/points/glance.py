@@ -20,7 +20,7 @@ from mjcont.numerics.points.looking import CALM
 from mjcont.numerics.spectra.abreast import Probe, Tracks, coefficients, singular_at, within
 from mjcont.numerics.spectra.spectrum import first_order_spectra, pair_counts
 from mjcont.numerics.spectra.stability import SPECTRUM
-from mjcont.numerics.spectra.tracks import DEFECTIVE, MANY, eigenvalue_noise, vanishes
+from mjcont.numerics.spectra.tracks import DEFECTIVE, FEW, eigenvalue_noise, vanishes
 from mjcont.numerics.step.arclength import BEFORE, CurvePoint
 
 
@@ -31,7 +31,7 @@ def glance(system: System, chain: Sequence[CurvePoint], settings: Settings) -> N
     """
     problem = system.problem
     fits = len(system.free) == 1 and not (system.conditions or problem.second_order or problem.nonsmooth)
-    if not (fits and problem.n <= MANY and problem.side_by_side(system.names[0])) or len(chain) < 2:
+    if not (fits and problem.n < FEW and problem.side_by_side(system.names[0])) or len(chain) < 2:
         return
     before = BEFORE.get(chain[0])
     nodes = list(chain) if before is None else [before, *chain]

@@ -8,6 +8,7 @@ from mjcont.numerics.equations.refusals import Refused, Why
 from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import System
 from mjcont.numerics.points.balance import Balance, Piece, multiple
+from mjcont.numerics.points.calm import calm
 from mjcont.numerics.points.events import Detector, Found, Located
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.step.notes import Note
@@ -27,13 +28,16 @@ def look(
     system: System, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector], settings: Settings
 ) -> Found | Refused:
     """Return the special points between two points of the curve in order, or why the step is to be shorter."""
-    if calm := CALM.get(new) is old:
+    known = CALM.get(new) is old
+    if known:
         detectors = [d for d in detectors if not d.structural]
         if not detectors:
             return Found()
     structural = any(d.structural for d in detectors)
     located, neutral = list[Located](), list[Located]()
-    for piece in Balance(system, settings).pieces(old, new) if structural else [Piece(old, new, quiet=calm)]:
+    quiet = known or (structural and calm(system, old, new, settings))
+    whole = quiet or not structural
+    for piece in [Piece(old, new, quiet=quiet)] if whole else Balance(system, settings).pieces(old, new):
         found = _inside(piece, detectors)
         if isinstance(found, Refused):
             return found

@@ -24,7 +24,7 @@ _NOWHERE = 1e-12
 _UNLIKELY = 1e150
 # a change of an eigenvalue counts from this part of its distance from the axis on, or of its values at the ends where
 # it passes; and from so many times its noise on
-_CHANGES, _STEEPENS, _NOISE = 0.3, 0.1, 1e2
+CHANGES, _STEEPENS, _NOISE = 0.3, 0.1, 1e2
 
 # values (m, N) of eigenvalues at one end, their slopes, whether these are known, and the noise
 Ends = tuple[Array, Array, Array, Array]
@@ -169,7 +169,7 @@ class Probe:
         off = np.abs((self.left @ (product - expected)[:, :, None])[:, :, 0])
         ends = np.maximum(np.abs(followed.start), np.abs(followed.end))
         passes = followed.start.real * followed.end.real < 0.0
-        floor = np.maximum(_CHANGES * np.abs(followed.at(t[:, None]).real), np.where(passes, _STEEPENS * ends, 0.0))
+        floor = np.maximum(CHANGES * np.abs(followed.at(t[:, None]).real), np.where(passes, _STEEPENS * ends, 0.0))
         parts = np.where(followed.away, off / np.maximum(floor, _NOISE * followed.noise), 0.0)
         found: Array = np.where(np.isfinite(off).all(axis=1), parts.max(axis=1, initial=0.0), 0.0)
         return found

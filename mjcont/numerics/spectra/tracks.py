@@ -19,8 +19,8 @@ from scipy import linalg
 
 from mjcont.numerics.equations.problem import Array
 from mjcont.numerics.spectra.abreast import DIPS, ERRS, Tracks, coefficients, singular_at, within
-from mjcont.numerics.spectra.spectrum import companion, symmetric
-from mjcont.numerics.spectra.stability import negative_stiffness, spectrum_of
+from mjcont.numerics.spectra.spectrum import companion, first_order_spectra, symmetric
+from mjcont.numerics.spectra.stability import SPECTRUM, negative_stiffness, spectrum_of
 from mjcont.numerics.step.arclength import CurvePoint
 from mjcont.numerics.step.notes import Note
 
@@ -30,8 +30,8 @@ _FOURTH, _SECOND, _OWN = 1e-11, 1e-10, 1e-12
 _FAR = 1e-8
 # eigenvectors more nearly orthogonal to their left ones than this give no slope
 DEFECTIVE = 1e-5
-# unknowns up to which eigenvalues are followed
-MANY = 128
+# unknowns up to which eigenvalues are followed, and from which on they are where nothing else proves that none passes
+MANY, FEW = 128, 24
 _GRID = np.linspace(0.0, 1.0, 17)[1:-1]
 _GRID_ERRORS = 16.0 * (_GRID * (1.0 - _GRID)) ** 2
 # a root of det J(t) this near to a point that holds the eigenvalue is that point's
@@ -122,6 +122,8 @@ def _motion(point: CurvePoint) -> Motion | None:
         own = _smallest(jac) if second else values
     except (linalg.LinAlgError, ValueError):
         return None
+    if not second and not SPECTRUM.known(point):
+        SPECTRUM.put(point, first_order_spectra(jac[None], values[None])[0])
     products = np.einsum("ij,ij->j", left.conj(), right)
     sure = np.abs(products) > DEFECTIVE
     left = left / np.where(sure, products, 1.0).conj()
