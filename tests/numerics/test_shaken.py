@@ -24,7 +24,8 @@ FAST_SEEDS = (0, 1)
 FAST = (
     "ab at B = 18", "pp2", "adaptx", "bratu", "isola of radius 0.001", "imperfect pitchfork -0.001", "two folds, 1e-05",
     "two oscillations 0.0001 apart", "circle and two lines", "two modes", "folds of ab", "conic +1",
-    "Hopf points of ab", *(f"network {seed}" for seed in range(3)), *(f"linkage {seed}" for seed in range(5)),
+    "Hopf points of ab", "ab, side by side",
+    *(f"network {seed}" for seed in range(3)), *(f"linkage {seed}" for seed in range(5)),
     "overcentre, k_j = 1000", "truss", "column, pushed aside", "Ziegler's column, b = 0.1",
     "pendulum between stops, g = 2", "cable", "toggle clamp", "figures 2 and 3", "figure 5",
     "figures 12, 14, 15: 1 g, 0 deg", "study overcentre",

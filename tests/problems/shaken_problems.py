@@ -101,6 +101,24 @@ def _fields() -> Iterator[tuple[str, Job]]:
         yield name, partial(_diagram, field, low, high)
 
 
+def _together() -> Iterator[tuple[str, Job]]:
+    """Vectorized fields; what each evaluates is shaken inside."""
+    for name, field, *how in (
+        ("ab", partial(fields.ab, 18.0), "D", 0.0, 0.6),
+        ("adaptx", fields.adaptx, "alpha", 0.1, 2.0),
+        ("brusselator", fields.brusselator, "B", 0.5, 8.0),
+        ("two oscillations", partial(folding.two_oscillations, 1e-2, 0.111), "mu", -1.0, 1.0),
+        ("hyperbolas", partial(folding.hyperbolas, 1e-3, 1.0), "la", -1.0, 1.0),
+        ("neutral saddle", folding.neutral_saddle, "mu", 0.2, 3.0),
+    ):
+        yield f"{name}, side by side", partial(_curve, lambda f=field: fields.vectorized(f()), *how)
+    for name, field in (("pitchfork", crossings.pitchfork), ("circle and two lines", crossings.circle_and_two_lines)):
+        yield f"{name}, side by side", partial(_diagram, lambda f=field: fields.vectorized(f()), -1.5, 1.5)
+    yield "folds of ab, side by side", partial(
+        _locus, lambda: _curve(lambda: fields.vectorized(fields.ab(18.0)), "D", 0.0, 0.6), "LP1", "B", 8.0, 40.0
+    )
+
+
 def _loci() -> Iterator[tuple[str, Job]]:
     yield "folds of ab", partial(_locus, _ab, "LP1", "B", 8.0, 40.0)
     yield "Hopf points of ab", partial(_locus, _ab, "HB2", "B", 8.0, 24.0, end_at=())
@@ -244,4 +262,4 @@ def _motions() -> Iterator[tuple[str, Job]]:
     yield "overcentre, shaken by its force", _overcentre_shaken_by_its_force
 
 
-PROBLEMS: dict[str, Job] = dict([*_fields(), *_loci(), *_random(), *_mechanisms(), *_motions()])
+PROBLEMS: dict[str, Job] = dict([*_fields(), *_together(), *_loci(), *_random(), *_mechanisms(), *_motions()])
