@@ -5,8 +5,10 @@ from __future__ import annotations
 import subprocess
 import sys
 import tempfile
+import time
 
 import mjcont as mc
+from benchmarks.cases import chain
 from benchmarks.measure import seconds
 
 
@@ -60,6 +62,14 @@ def locus() -> float:
         mc.continue_special(fold, "F_ul", bounds=(-1000.0, 0.0))
 
     return seconds(run)
+
+
+def row(links: int) -> float:
+    """Return the CPU time of a row of the chain's branch, in ms."""
+    case = chain(links)
+    began = time.process_time()
+    rows = len(case.run())
+    return 1e3 * (time.process_time() - began) / rows
 
 
 def memory(links: int) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 from benchmarks.book import FAILED, MISSING
 
 POINTS, CHAIN, DIAGRAM, MEMORY, JOBS = "points [us]", "chain [us]", "diagram [ms]", "memory [MB]", "jobs [s]"
-ORBITS, SWEEPS = "orbits [ms]", "cases of sweeps, CPU [ms]"
+ORBITS, SWEEPS, ROWS = "orbits [ms]", "cases of sweeps, CPU [ms]", "a row of a long chain, CPU [ms]"
 DENSE = "a row of a dense field, CPU [LU factors of its size]"
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from benchmarks import auto_peer, cases, compiled, dense, jobs, orbits, peers, sweeps
 from benchmarks.book import FAILED, MISSING, Book, Job, Missing
 from benchmarks.chords import chord_error
-from benchmarks.layout import CHAIN, DENSE, DIAGRAM, JOBS, MEMORY, ORBITS, POINTS, SWEEPS, Table
+from benchmarks.layout import CHAIN, DENSE, DIAGRAM, JOBS, MEMORY, ORBITS, POINTS, ROWS, SWEEPS, Table
 from benchmarks.measure import machine, medians, seconds
 from benchmarks.points import Floor, growth, per_point, split
 
@@ -161,7 +161,10 @@ def plan(quick: bool, repeats: int) -> Iterator[Job]:
         yield Job(DENSE, name, lambda tell, many=many: _median(partial(dense.factors_a_row, 100, many), 3, tell))
     if quick:
         return
-    yield Job(MEMORY, "chain 80", lambda tell: jobs.memory(80))
+    for links in cases.MANY_LINKS:
+        yield Job(ROWS, f"chain {links}", lambda tell, links=links: _median(partial(jobs.row, links), 3, tell))
+    for links in (80, *cases.MANY_LINKS):
+        yield Job(MEMORY, f"chain {links}", lambda tell, links=links: jobs.memory(links))
     for name, job in (("import", jobs.import_time), ("inspect", jobs.inspect), ("locus of figure 12", jobs.locus)):
         yield Job(JOBS, name, lambda tell, job=job: _median(job, 5, tell))
     yield Job(JOBS, "reproduce", lambda tell: jobs.reproduce())

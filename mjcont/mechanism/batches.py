@@ -208,12 +208,13 @@ class ConstrainedRows:
         self._data = mujoco.MjData(model)
         self._warned = Warned(self._data)
         self.sides: list[bytes] = []
+        self.idle = True  # whether no constraint was near in any row of the last evaluation
 
     def forward(self, qpos: Array, qvel: Array | None, writer: FieldWriter, qacc: Array | None = None) -> Array:
         """Return the forces for every row, (m, nv); `qacc` (m, nv) is zero unless given."""
         m, d = self._model, self._data
         out = np.empty((len(qpos), m.nv))
-        self.sides = []
+        self.sides, self.idle = [], True
         writer.inputs.put(d)
         with quiet:  # of constraints MuJoCo also warns without counting
             for i, x in enumerate(qpos):
@@ -223,6 +224,7 @@ class ConstrainedRows:
                 mujoco.mj_inverse(m, d)
                 mujoco.mj_fwdActuation(m, d)
                 side = load_side(m, d)
+                self.idle &= d.nefc == 0
                 self.sides.append(side if self._kinks is None else side + codes_at(self._kinks, m, d).tobytes())
                 out[i] = d.qfrc_actuator - d.qfrc_inverse
                 if d.ncon and (qvel is not None or qacc is not None):

@@ -61,7 +61,7 @@ class Core:
         self.readings = Readings(model, self.parameters, self.writer_of(model), constrained)
         self.evaluator = Evaluator(self.model, self.writer, constrained, evaluations)
         self.nonsmooth = self.evaluator.nonsmooth
-        sparse = None if self.nonsmooth else couplings(self.model)
+        sparse = couplings(self.model) if self.evaluator.structured else None
         self.derivatives = Derivatives(self.evaluator, self.writer, parameters, scale, moved, sparse)
         fresh = partial(_fresh, self.loaded, parameters, geometry)
         self.variants = ModelVariants(fresh, self.loaded.nbuffer, parameters, self.evaluator.counted)

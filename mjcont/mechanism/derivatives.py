@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csc_matrix
 
 from mjcont.mechanism.evaluation import Evaluator
 from mjcont.mechanism.sides import difference_rule, on_one_side, parameter_rate
 from mjcont.mechanism.writer import FieldWriter
 from mjcont.numerics.equations.coloured import Coloured
 from mjcont.numerics.equations.differences import FORWARD, jacobian_from_rows, jacobian_steps, stencil
-from mjcont.numerics.equations.problem import Array, Linearization, Range, Ranges, Stencil, Values
+from mjcont.numerics.equations.problem import Array, Linearization, Matrix, Range, Ranges, Stencil, Values
 from mjcont.results.quantities import Parameter
 
 # states whose derivatives share a batch, where they have few degrees of freedom
@@ -46,17 +47,25 @@ class Derivatives:
     ) -> Linearization:
         """Return the forces with their derivatives in the state and in the parameters `wrt`."""
         rule, self.failure = stencil(accurate), ""
-        sparse, scale = self.couplings, self.scale
-        steps = jacobian_steps(scale, rule) if sparse is None else sparse.steps(scale, rule)
+        thin, scale = self.couplings, self.scale
         self.writer.write(self.parameters, values)
         smooth = not self.evaluator.nonsmooth
         within = dict(zip(wrt, ranges or [None] * len(wrt), strict=True))
         riders = [n for n in wrt if smooth and self.writer.alone(self.parameters, n)]
-        rows, rates = self._with_riders(x, values, self.moved(x, steps), {n: within[n] for n in riders})
-        f, sides = rows[0].copy(), self.evaluator.sides
-        jac = jacobian_from_rows(rows[1:], scale, rule) if sparse is None else sparse.jacobian(rows[1:], scale, rule)
-        if sides and not self.writer.failure:
-            jac = on_one_side(jac, rows, sides, steps, lambda finer: self._pieces(x, finer), accurate)
+        ranged = {n: within[n] for n in riders}
+        if thin is not None:
+            rows, rates = self._with_riders(x, values, self.moved(x, thin.steps(scale, rule)), ranged)
+            jac: Matrix = thin.jacobian(rows[1:], scale, rule)
+            sides = self.evaluator.sides
+        if thin is None or not self.evaluator.unconstrained:
+            steps = jacobian_steps(scale, rule)
+            rows, rates = self._with_riders(x, values, self.moved(x, steps), ranged)
+            jac = jacobian_from_rows(rows[1:], scale, rule)
+            sides = self.evaluator.sides
+            if sides and not self.writer.failure:
+                jac = on_one_side(jac, rows, sides, steps, lambda finer: self._pieces(x, finer), accurate)
+            jac = jac if thin is None else csc_matrix(jac)  # matrices are of one kind along a curve
+        f = rows[0].copy()
         piece = b"".join(sides[:1])
         if len(riders) == len(wrt):
             return Linearization(f, jac, rates.T, piece)

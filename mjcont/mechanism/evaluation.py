@@ -45,7 +45,8 @@ class Evaluator:
         self._kinks = Kinks.of(model)
         self._constrained = ConstrainedRows(model, self._kinks) if constrained else None
         self._last: Rows | ConstrainedRows | None = self._constrained
-        self._dampers = None if self.nonsmooth else Dampers.of(model)
+        self._own_dampers = Dampers.of(model)
+        self._dampers = None if self.nonsmooth else self._own_dampers
         self._stages = None if self.nonsmooth else Stages(model)
         self._large = None if model.nv < LARGE else self._stages
         self._batches: dict[int, Rows] = {}
@@ -102,6 +103,16 @@ class Evaluator:
     def sides(self) -> list[bytes]:
         """What tells apart the smooth pieces of the forces in the last evaluation (see `sides.one_sided`)."""
         return self._last.sides if self.nonsmooth and self._last is not None else []
+
+    @property
+    def structured(self) -> bool:
+        """Whether what can act on what is known as long as no constraint is near."""
+        return self._kinks is None and not self.model.neq
+
+    @property
+    def unconstrained(self) -> bool:
+        """Whether no constraint was near in any row of the last evaluation."""
+        return self._constrained is None or self._constrained.idle
 
     @property
     def one_by_one(self) -> bool:
@@ -193,11 +204,15 @@ class Evaluator:
         return dense
 
     def sparse_matrices(self, x: Array, scale: Array) -> tuple[Any, Any]:
-        """Return mass and damping of a model whose forces are smooth as sparse matrices, (nv, nv) each."""
+        """Return mass and damping as sparse matrices, (nv, nv) each: the model's own while no constraint is near."""
+        if self._constrained is not None:
+            self.forces(x[None])
+        if self.writer.failure or not self.unconstrained:
+            return sparse.csc_matrix(self.mass(x)), sparse.csc_matrix(self.damping(x, scale))
         data = self.position(x)
         inertia = matrices.mass(self.model, data)
-        if self._dampers is not None and not self.writer.failure:
-            return inertia, self._dampers.sparse_matrix(data)
+        if self._own_dampers is not None:
+            return inertia, self._own_dampers.sparse_matrix(data)
         return inertia, sparse.csc_matrix(self.damping(x, scale))
 
     def damping(self, x: Array, scale: Array) -> Array:

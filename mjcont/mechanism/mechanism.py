@@ -247,7 +247,7 @@ class Mechanism(Shareable, Observed, Held, OnManifold, Model):
     @property
     def one_pattern(self) -> bool:
         """Whether df/dx is sparse, with the same entries everywhere."""
-        return self._core.derivatives.couplings is not None and not self._held
+        return self._core.derivatives.couplings is not None and not self._held and not self.nonsmooth
 
     @property
     def pieces(self) -> list[bytes]:

@@ -24,6 +24,12 @@ def woven(net):
     return mc.Mechanism.from_xml(net.xml())
 
 
+@pytest.fixture
+def small_ones_are_sparse(monkeypatch):
+    monkeypatch.setattr("mjcont.mechanism.large.couplings.MANY", 10)
+    monkeypatch.setattr("mjcont.mechanism.large.couplings._PART", 0.5)
+
+
 def some_state(mechanism, size=0.2, seed=1):
     step = size * np.random.default_rng(seed).normal(size=mechanism.n) * mechanism.state_scale
     return mechanism.retract(mechanism.qpos0, step)
@@ -125,15 +131,13 @@ def branching(seed):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
-def test_nothing_acts_on_what_the_structure_leaves_out(seed, monkeypatch):
-    full = mc.Mechanism.from_xml(branching(seed))
-    assert isinstance(full.linearize(full.qpos0, full.values(), ()).jac, np.ndarray)
-    monkeypatch.setattr("mjcont.mechanism.large.couplings.MANY", 10)
-    monkeypatch.setattr("mjcont.mechanism.large.couplings._PART", 0.5)
-    thin, x = full.copy(), some_state(full)
+def test_nothing_acts_on_what_the_structure_leaves_out(seed, small_ones_are_sparse, monkeypatch):
+    thin = mc.Mechanism.from_xml(branching(seed))
+    monkeypatch.setattr("mjcont.mechanism.large.couplings.MANY", 300)
+    full, x = thin.copy(), some_state(thin)
     values = {**full.values(), **{n: 0.3 for n, p in full.parameters.items() if p.kind == "control"}}
     found, expected = (m.linearize(x, values, ()).jac for m in (thin, full))
-    assert found.nnz < 0.5 * full.n**2
+    assert isinstance(expected, np.ndarray) and found.nnz < 0.5 * full.n**2
     assert np.abs(found.toarray() - expected).max() < 1e-7 * np.abs(expected).max()
     pencil, whole = thin.pencil(x, values, found), full.pencil(x, values, expected)
     for name in ("mass", "damping"):
@@ -144,3 +148,33 @@ def test_a_chain_is_full():
     links = '<body pos="0 0 0.1"><joint/><geom size="0.01"/>' * 320 + "</body>" * 320
     model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{links}</worldbody></mujoco>")
     assert couplings(model) is None
+
+
+# -- contacts -----------------------------------------------------------------------------------------------------
+
+
+def test_masses_that_could_touch_but_do_not_leave_matrices_as_they_are(small_ones_are_sparse):
+    net = Net(4, 5)
+    apart, touching = (mc.Mechanism.from_xml(net.xml(contact)) for contact in ("disable", "enable"))
+    assert touching.constrained
+    (a, before), (b, _) = ((m.linearize(apart.qpos0, m.values(), ()), m.evaluations) for m in (apart, touching))
+    assert np.abs((a.jac - b.jac).toarray()).max() < 1e-9 * np.abs(a.jac).max()
+    assert before < 2 * apart.n
+    pencils = [m.pencil(apart.qpos0, m.values(), found.jac) for m, found in ((apart, a), (touching, b))]
+    for name in ("mass", "damping"):
+        one, other = (getattr(p, name).toarray() for p in pencils)
+        assert np.array_equal(one, other)
+
+
+def test_masses_that_touch_act_on_each_other(small_ones_are_sparse, monkeypatch):
+    net = Net(4, 5, rest=0.01)
+    thin = mc.Mechanism.from_xml(net.xml("enable"))
+    monkeypatch.setattr("mjcont.mechanism.large.couplings.MANY", 300)
+    full = mc.Mechanism.from_xml(net.xml("enable"))
+    x = full.qpos0.copy()
+    x[0] += net.width - 0.008  # the first mass overlaps the one beside it by 2 mm
+    assert full.active(x, full.values())
+    found, expected = (m.linearize(x, m.values(), ()).jac for m in (thin, full))
+    assert isinstance(expected, np.ndarray) and np.array_equal(found.toarray(), expected)
+    pencil, whole = thin.pencil(x, thin.values(), found), full.pencil(x, full.values(), expected)
+    assert np.array_equal(pencil.damping.toarray(), whole.damping)
