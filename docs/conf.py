@@ -39,7 +39,6 @@ suppress_warnings = ["ref.python"]  # types of arguments are said in words, and 
 autodoc_typehints = "none"  # docstrings say what arguments are, in words
 autodoc_member_order = "bysource"
 napoleon_google_docstring = False
-napoleon_use_ivar = True
 
 sphinx_gallery_conf = {
     "examples_dirs": "gallery",
@@ -65,9 +64,28 @@ html_show_sphinx = False
 html_copy_source = False
 
 
-def _bars(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
-    """Let |s| in a docstring be an absolute value, no substitution."""
+def _plain(app: Any, what: str, name: str, thing: Any, options: Any, lines: list[str]) -> None:
+    """Hand docstrings on as they are meant, before napoleon reads types into them.
+
+    |s| is an absolute value, no substitution; a property's first line is a sentence, whatever colon it has; attributes
+    are named with what they are, several at a time.
+    """
     lines[:] = [line.replace("|", r"\|") for line in lines]
+    if what == "property":
+        lines.insert(0, "")
+    if "Attributes" in lines[:-1]:
+        begin = lines.index("Attributes")
+        after = [i for i in range(begin + 2, len(lines) - 1) if lines[i + 1] and not lines[i + 1].strip("-")]
+        end = after[0] if after else len(lines)
+        lines[begin:end] = ["**Attributes**", "", *map(_entry, lines[begin + 2 : end]), ""]
+
+
+def _entry(line: str) -> str:
+    """Return a line of a section on attributes as one of a list."""
+    name, colon, text = line.partition(" : ")
+    if not line.strip() or line.startswith(" "):
+        return f"  {line.strip()}".rstrip()
+    return f"* ``{name}``: {text}" if colon else f"* {line}"
 
 
 def _skipped(app: Any, what: str, name: str, thing: Any, skip: bool, options: Any) -> bool | None:
@@ -90,7 +108,7 @@ def _display(translator: Any, node: docutils.nodes.math_block) -> None:
 
 def setup(app: Any) -> None:
     """Add what is above."""
-    app.connect("autodoc-process-docstring", _bars)
+    app.connect("autodoc-process-docstring", _plain, priority=400)
     app.connect("autodoc-skip-member", _skipped)
     app.add_html_math_renderer("docutils", (_inline, None), (_display, None))
     app.config.html_math_renderer = "docutils"

@@ -9,11 +9,11 @@ from typing import Any, Self
 import numpy as np
 
 from mjcont.arguments import checked
-from mjcont.errors import MjcontError, ParameterError, leaves_domain, unknown_name
+from mjcont.errors import ParameterError, unknown_name
 from mjcont.fields.checks import Held
 from mjcont.fields.derivatives import Derivatives
 from mjcont.fields.foreign import offered
-from mjcont.fields.functions import Evaluated, raised, takes_time
+from mjcont.fields.functions import Evaluated, measured, takes_time
 from mjcont.fields.parameters import declared, flattened
 from mjcont.fields.together import SideBySide
 from mjcont.numerics.equations.differences import (
@@ -373,7 +373,7 @@ class VectorField(SideBySide):
         found = np.empty((len(states), len(chosen)))
         per_row = [values] * len(states) if isinstance(values, Mapping) else values
         for k, o in enumerate(chosen):
-            own = [] if o.source else [_measured(o, v, x) for x, v in zip(states, per_row, strict=True)]
+            own = [] if o.source else [measured(o, v, x) for x, v in zip(states, per_row, strict=True)]
             found[:, k] = states[:, o.source[1]] if o.source else own
         return found
 
@@ -387,17 +387,6 @@ class VectorField(SideBySide):
         """List parameters and components."""
         names = ", ".join(f"{p.name} = {p.value:g}" for p in self.parameters.values())
         return f"{self.name}: {self.n} unknowns; parameters {names}"
-
-
-def _measured(observable: Observable, values: Values, x: Array) -> float:
-    try:
-        return float(observable.function(values, x))
-    except MjcontError:
-        raise
-    except Exception as error:
-        if leaves_domain(error):
-            return np.nan
-        raise raised(f"observable '{observable.name}'", error) from error
 
 
 def _component(i: int) -> Callable[[Any, Any], float]:

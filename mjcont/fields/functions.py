@@ -18,6 +18,7 @@ from mjcont.errors import FunctionError, MjcontError, leaves_domain
 from mjcont.fields.parameters import Arrays
 from mjcont.numerics.equations.clock import TimeUp, check
 from mjcont.numerics.equations.problem import Array, Values
+from mjcont.results.quantities import Observable
 
 # states that tell whether a function takes them as columns, as parts of the scale beside one, and how well f agrees
 _ASIDE, _AGREES = 1e-2, 1e-6
@@ -87,6 +88,18 @@ def check_columns(what: str, together: Array, single: Array) -> None:
         k, i = wrong[0].tolist()
         raise FunctionError(f"{what} is declared vectorized, but its columns are not what it returns for each state by "
                             f"itself: f[{i}] of column {k} is {together[k, i]:g}, by itself {single[k, i]:g}")
+
+
+def measured(observable: Observable, values: Values, x: Array) -> float:
+    """Return the value of an observable of the user's own, NaN where it overflows or leaves its domain."""
+    try:
+        return float(observable.function(values, x))
+    except MjcontError:
+        raise
+    except Exception as error:
+        if leaves_domain(error):
+            return np.nan
+        raise raised(f"observable '{observable.name}'", error) from error
 
 
 @dataclass(slots=True)
