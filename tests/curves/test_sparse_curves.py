@@ -58,6 +58,7 @@ def bautin_branch():
     return mc.continue_equilibria(field, "b1", bounds=(-1.0, 1.0))
 
 
+@pytest.mark.slow
 def test_a_hopf_point_of_a_sparse_field_has_its_frequency_and_coefficient(bautin_branch):
     (hopf,) = bautin_branch.special_points
     assert (hopf.kind, hopf["b1"]) == ("HB", pytest.approx(0.0, abs=1e-10))
@@ -66,6 +67,7 @@ def test_a_hopf_point_of_a_sparse_field_has_its_frequency_and_coefficient(bautin
     assert hopf.coefficients["l1"] == pytest.approx(2.0 * -0.4 / 3.0, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_stability_changes_at_the_hopf_point_and_is_known(bautin_branch):
     (hopf,) = bautin_branch.special_points
     assert set(bautin_branch.n_unstable[: hopf.index]) == {0}
@@ -81,6 +83,7 @@ def test_the_locus_of_a_sparse_hopf_point_has_its_generalised_one(bautin_branch)
     assert (found.kind, found["b2"]) == ("GH", pytest.approx(0.0, abs=1e-7))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [20, ON_A_GRID])
 def test_a_pair_far_out_on_the_axis_that_passes_it_is_found_beside_slow_modes(n):
     slow = sparse.diags(-np.linspace(0.01, 1.0, n))

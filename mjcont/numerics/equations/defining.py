@@ -344,7 +344,7 @@ def _generator(even: Array, odd: Array, k: float) -> Array:
     for which one or the other multiple is largest both are large; as k vanishes it becomes the first choice.
     """
     if k >= 0.0:
-        return right_singular(even)[0]
+        return np.asarray(right_singular(even)[0])
     a = float(np.sqrt(-k))
     one, other = (right_singular(even + s * odd)[0] for s in (a, -a))
     middle = one + other if one @ other >= 0.0 else one - other
