@@ -58,6 +58,7 @@ def bautin_branch():
     return mc.continue_equilibria(field, "b1", bounds=(-1.0, 1.0))
 
 
+@pytest.mark.slow
 def test_a_hopf_point_of_a_sparse_field_has_its_frequency_and_coefficient(bautin_branch):
     (hopf,) = bautin_branch.special_points
     assert (hopf.kind, hopf["b1"]) == ("HB", pytest.approx(0.0, abs=1e-10))
@@ -66,6 +67,7 @@ def test_a_hopf_point_of_a_sparse_field_has_its_frequency_and_coefficient(bautin
     assert hopf.coefficients["l1"] == pytest.approx(2.0 * -0.4 / 3.0, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_stability_changes_at_the_hopf_point_and_is_known(bautin_branch):
     (hopf,) = bautin_branch.special_points
     assert set(bautin_branch.n_unstable[: hopf.index]) == {0}
@@ -81,6 +83,7 @@ def test_the_locus_of_a_sparse_hopf_point_has_its_generalised_one(bautin_branch)
     assert (found.kind, found["b2"]) == ("GH", pytest.approx(0.0, abs=1e-7))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [20, ON_A_GRID])
 def test_a_pair_far_out_on_the_axis_that_passes_it_is_found_beside_slow_modes(n):
     slow = sparse.diags(-np.linspace(0.01, 1.0, n))
@@ -121,6 +124,13 @@ def test_folds_and_hopf_points_of_a_sparse_field_are_those_of_the_dense_one(take
 
 
 @pytest.mark.slow
+def test_folds_and_hopf_points_vary_as_their_closed_forms(takens_branch):
+    found = {p.kind: mc.sensitivities(p, ["b2"], quantities=["b1", "u[0]"])["b2"] for p in takens_branch.special_points}
+    assert found["LP"] == pytest.approx({"b1": 0.0, "u[0]": 0.0}, abs=1e-8)
+    assert found["HB"] == pytest.approx({"b1": -0.6, "u[0]": -1.0}, rel=1e-7)
+
+
+@pytest.mark.slow
 def test_the_locus_of_a_sparse_fold_has_its_double_zero(takens_branch):
     locus = mc.continue_special(takens_branch.of_kind("LP")[0], "b2", bounds={"b1": (-1.0, 1.0), "b2": (-0.5, 0.5)})
     found = [p for p in locus.special_points if p.kind == "BT"]
@@ -130,21 +140,24 @@ def test_the_locus_of_a_sparse_fold_has_its_double_zero(takens_branch):
 
 
 def cusp(u, p):
-    return np.array([p["mu"] + p["nu"] * u[0] - u[0] ** 3, -u[1]])
+    return np.array([p["mu"] + p["nu"] * u[0] - u[0] ** 3 - 3.0 * (p["s"] - 0.2) * u[0] ** 2, -u[1]])
 
 
 def cusp_slope(u, p):
-    return np.diag([p["nu"] - 3.0 * u[0] ** 2, -1.0])
+    return np.diag([p["nu"] - 3.0 * u[0] ** 2 - 6.0 * (p["s"] - 0.2) * u[0], -1.0])
 
 
 @pytest.mark.slow
 def test_the_locus_of_a_sparse_fold_has_its_cusp():
-    field = with_tail(cusp, cusp_slope, [1.5, 0.0], {"mu": 1.0, "nu": 1.0})
+    field = with_tail(cusp, cusp_slope, [1.5, 0.0], {"mu": 1.0, "nu": 1.0, "s": 0.2})
     branch = mc.continue_equilibria(field, "mu", bounds=(-1.0, 1.0))
     assert sorted(p["mu"] for p in branch.of_kind("LP")) == pytest.approx([-2.0 / 27.0**0.5, 2.0 / 27.0**0.5], rel=1e-9)
     locus = mc.continue_special(branch.point("LP1"), "nu", bounds={"mu": (-1.0, 1.0), "nu": (-0.5, 1.5)})
     (found,) = locus.special_points
     assert (found.kind, found["mu"], found["nu"]) == ("CP", pytest.approx(0.0, abs=1e-7), pytest.approx(0.0, abs=1e-7))
+    # 3 s more of u^2 move the cusp to u = -s, where nu = -3 s^2
+    moved = mc.sensitivities(found, ["s"], quantities=["nu", "u[0]"])["s"]
+    assert moved == pytest.approx({"nu": 0.0, "u[0]": -1.0}, abs=1e-6)
 
 
 @pytest.mark.parametrize("n", [1, 2])

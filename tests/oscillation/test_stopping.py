@@ -56,9 +56,9 @@ def test_an_interrupt_keeps_the_orbits_reached(tmp_path):
 
 
 def test_an_interrupt_inside_the_users_function_keeps_the_orbits_reached():
-    field, left = bautin(), [math.inf]
+    left = [math.inf]
     hopf = circles()[0].point("HB1")
-    own = field.function
+    own = bautin().function
 
     def counted(u, p, t):
         left[0] -= 1
@@ -71,7 +71,7 @@ def test_an_interrupt_inside_the_users_function_keeps_the_orbits_reached():
         if count == 6:
             left[0] = 50
 
-    field.function = counted
+    field = mc.VectorField(counted, [0.0, 0.0], {"b1": -0.5, "b2": 1.0})
     curve = mc.continue_cycles(replace(hopf, problem=field), progress=progress)
     assert curve.interrupted
     assert len(curve) >= 6

@@ -23,8 +23,9 @@ from typing import Any
 import numpy as np
 
 from mjcont.errors import MjcontError
+from mjcont.numerics.equations.bends import bend, bends_itself
 from mjcont.numerics.equations.bordered import Factored, border
-from mjcont.numerics.equations.defining import Fold
+from mjcont.numerics.equations.defining import BranchPoint, Fold, Hopf
 from mjcont.numerics.equations.differences import (
     FIRST,
     NODES,
@@ -59,7 +60,7 @@ class Adjoint:
             raise MjcontError(f"{system.equations} equations for {system.n + system.k} unknowns: no square system")
         self.system, self.x, self.y = system, x, y
         self.local = system.local(x, y)
-        self._frozen = _Frozen(system, self.local)
+        self._frozen = _Frozen(system, self.local, self.y)
         self._factored: Factored | None = None
         self._base: dict[bool, Array] = {}
 
@@ -143,8 +144,8 @@ class Adjoint:
 class _Frozen:
     """The equations at other parameter values with null vectors frozen, and their gradients in the state."""
 
-    def __init__(self, system: System, local: Local) -> None:
-        self.system, self.local = system, local
+    def __init__(self, system: System, local: Local, y: Array) -> None:
+        self.system, self.local, self.y = system, local, y
         self.conditions = system.conditions
         self.fold: Fold | None = next((c for c in self.conditions if isinstance(c, Fold)), None)
         self.cusp: FoldCoefficient | None = next((c for c in self.conditions if isinstance(c, FoldCoefficient)), None)
@@ -165,14 +166,16 @@ class _Frozen:
     def _prepared(self, fold: Fold) -> Mapping[str, Array]:
         local, problem = self.local, self.local.problem
         v, w = fold.physical(local)
-        form = self._form(v)
+        itself = bends_itself(local)
+        form = np.zeros((0, 0)) if itself else self._form(v)
         if self.cusp is None:
             return {"v": v, "w": w, "form": form}
+        along = bend(local, self.system, self.y, w, v / problem.state_scale)[: problem.n] if itself else w @ form
         scale = problem.state_scale
         lu = fold.factored(local)
         half = 0.5 * second_form(problem, local.x, local.values, v, v)
         d = lu.solve(np.append(fold.rows * half, 0.0))[:-1] * scale
-        a = lu.solve_transposed(np.append(w @ form, 0.0))[:-1] * fold.rows
+        a = lu.solve_transposed(np.append(along, 0.0))[:-1] * fold.rows
         return {"v": v, "w": w, "form": form, "d": d, "a": a}
 
     def _form(self, u: Array) -> Array:
@@ -221,7 +224,9 @@ class _Frozen:
         rows, at, position = np.zeros((system.equations - n, n)), 0, len(system.free)
         for c in self.conditions:
             aux = y[position : position + len(c.aux)]
-            if c is self.fold:
+            if isinstance(c, Fold | FoldCoefficient | BranchPoint | Hopf) and bends_itself(self.local):
+                rows[at : at + c.count] = np.asarray(c.gradient(self.local, system, y))[:, :n]
+            elif c is self.fold:
                 rows[at] = -self.vectors["w"] @ self.vectors["form"]
             elif c is self.cusp:
                 rows[at] = self._coefficient_row()

@@ -15,8 +15,6 @@ from mjcont.numerics.equations.system import Local, System
 
 # step of the differences, in scaled unknowns
 _STEP = 1e-2
-# how far along its direction a bend of first order reaches, in scaled unknowns
-REACH = 3.0 * _STEP
 _RULES = {1: (NODES[NODES != 0.0], FIRST[NODES != 0.0]), 2: (NODES, SECOND)}
 _CENTRED = np.array(CENTRED.offsets), np.array(CENTRED.weights)
 
@@ -26,11 +24,9 @@ def bends_itself(local: Local) -> bool:
     return not local.problem.second_order and (local.problem.own_jacobian or sparse.issparse(local.jac))
 
 
-def reach_of(local: Local, along: Array) -> float:
-    """Return the largest component of a scaled direction (n + number free,) in units of its typical size."""
-    unit = np.ones(len(along))
-    unit[: local.problem.n] = local.problem.state_scale / local.problem.typical
-    return float(np.abs(along * unit).max())
+def _reach(local: Local, along: Array) -> float:
+    """Return the largest component of a scaled direction in units of its typical size."""
+    return float(np.abs(along * local.problem.state_scale / local.problem.typical).max())
 
 
 def bend(
@@ -41,17 +37,15 @@ def bend(
     Parameters
     ----------
     left : (n,) or (r, n), over the equations of f.
-    along : (n,) or (n + number free,) scaled direction.
+    along : (n,) scaled direction.
     order : 1 or 2, by differences of sixth order.
-    step : the length of one centred difference instead, in parts of `along`.
-
-    Free parameters stop at their bounds.
+    step : the length of one centred difference instead, in parts of `along`, which may be (n + number free,) then.
     """
     n, count = system.n, len(system.free)
     whole = np.zeros(n + system.k)
     whole[: len(along)] = along
     nodes, weights = _RULES[order] if step is None else _CENTRED
-    h = _STEP / max(reach_of(local, along), 1e-300) if step is None else step
+    h = _STEP / max(_reach(local, along), 1e-300) if step is None else step
     total = np.zeros((*left.shape[:-1], n + count), dtype=left.dtype)
     for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
         x, moved = system.move(local.x, y, node * h * whole)

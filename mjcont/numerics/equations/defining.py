@@ -22,7 +22,7 @@ from scipy import sparse
 
 from mjcont.numerics.equations import frozen
 from mjcont.numerics.equations.algebra import right_singular
-from mjcont.numerics.equations.bends import REACH, bend, bends_itself, reach_of
+from mjcont.numerics.equations.bends import bend, bends_itself
 from mjcont.numerics.equations.bordered import Factored, border, null_vectors, row_scale
 from mjcont.numerics.equations.columns import weighted
 from mjcont.numerics.equations.differences import bilinear_gradient, directional
@@ -147,12 +147,25 @@ class BranchPoint(Condition):
             return None
         right, left, _ = self._solve(local)
         if itself:
-            reach = REACH * max(abs(v[-1]) / reach_of(local, v) for v in right.T)
-            if not system.lowest[0] + reach <= y[0] <= system.highest[0] - reach:
-                return None
-            return np.array([-bend(local, system, y, left * self.rows, v) for v in right.T])
+            w = left * self.rows
+            ahead = self._ahead(local, system, y, w)
+            return np.array([-bend(local, system, y, w, v[:-1]) - v[-1] * ahead for v in right.T])
         found = frozen.crossing(local, system, y, right, left * self.rows)
         return None if found is None else -found
+
+    @staticmethod
+    def _ahead(local: Local, system: System, y: Array, w: Array) -> Array:
+        """Return the derivative in the coordinate of the first free parameter of w'[J f_p], (n + number free,)."""
+        slopes = np.array([p.slope(float(u)) for p, u in zip(system.free, y, strict=False)])
+        lead = system.free[0]
+
+        def whole(at: Local) -> Array:
+            return np.append(at.jac.T @ w, (w @ at.par) * slopes)
+
+        found = frozen.parameter_slope(whole, local, lead.name) * slopes[0]
+        if lead.log:  # the slope itself changes
+            found[system.n] += float(w @ local.par[:, 0]) * slopes[0] ** 2 / local.values[lead.name]
+        return np.asarray(found)
 
     def update(self, local: Local, aux: Array) -> None:
         """Take the present null vectors as borders."""
