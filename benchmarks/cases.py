@@ -7,7 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 import mjcont as mc
+from benchmarks import compiled
 
 LINKS = (5, 10, 20, 40, 80, 160)
 
@@ -93,12 +96,20 @@ def chain_xml(links: int) -> str:
     )
 
 
-def reaction() -> Case:
-    """Return the plain problem `ab`: two chemical reactions (demo of AUTO-07p), B = 14, sigma = 3."""
+def reaction(kind: str = "") -> Case:
+    """Return the plain problem `ab`: two chemical reactions (demo of AUTO-07p), B = 14, sigma = 3.
 
-    def rhs(u: Any, p: Mapping[str, float]) -> list[float]:
+    Its function takes one state at a time, or is "vectorized", or "compiled" and takes many at once.
+    """
+
+    def alone(u: Any, p: Mapping[str, float]) -> list[float]:
         conversion = p["D"] * (1.0 - u[0]) * math.exp(u[1])
         return [conversion - u[0], p["B"] * conversion - (1.0 + 3.0) * u[1]]
 
-    problem = mc.VectorField(rhs, [0.0, 0.0], {"D": 0.0, "B": 14.0}, name="ab")
-    return Case("ab", problem, "D", (0.0, 0.4), mc.find_equilibrium(problem), "u[0]", direction=1)
+    def together(u: Any, p: Mapping[str, Any]) -> list[Any]:
+        conversion = p["D"] * (1.0 - u[0]) * np.exp(u[1])
+        return [conversion - u[0], p["B"] * conversion - (1.0 + 3.0) * u[1]]
+
+    rhs = {"": lambda: alone, "vectorized": lambda: together, "compiled": compiled.compiled}[kind]()
+    problem = mc.VectorField(rhs, [0.0, 0.0], {"D": 0.0, "B": 14.0}, name="ab", vectorized=bool(kind))
+    return Case(f"ab {kind}".strip(), problem, "D", (0.0, 0.4), mc.find_equilibrium(problem), "u[0]", direction=1)

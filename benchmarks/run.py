@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks import auto_peer, cases, dense, jobs, orbits, peers, sweeps
+from benchmarks import auto_peer, cases, compiled, dense, jobs, orbits, peers, sweeps
 from benchmarks.book import FAILED, MISSING, Book, Job, Missing
 from benchmarks.chords import chord_error
 from benchmarks.layout import CHAIN, DENSE, DIAGRAM, JOBS, MEMORY, ORBITS, POINTS, SWEEPS, Table
@@ -27,6 +27,8 @@ _WEIGHTS = {
     "nose gear": 1 / 8e5,
     "nose gear full": 1 / 60.0,
     "ab": 1.0,
+    "ab vectorized": 1.0,
+    "ab compiled": 1.0,
 }
 _DS_MAX = 0.1
 # how fine the diagrams are that are compared, the default among them, and how much finer that is against which their
@@ -47,7 +49,7 @@ Runs = dict[str, Callable[[], float]]
 
 @cache
 def _case(name: str) -> cases.Case:
-    return _MECHANISMS[name]() if name in _MECHANISMS else cases.reaction()
+    return _MECHANISMS[name]() if name in _MECHANISMS else cases.reaction(name.removeprefix("ab").strip())
 
 
 def _with_auto(runs: Runs, case: cases.Case) -> dict[str, str]:
@@ -104,7 +106,8 @@ class Diagrams:
 
     def compare(self, chord: float, tell: Tell) -> dict[str, Any]:
         """Compare when AUTO's steps are as large as its chord error allows: that of mjcont's diagram."""
-        if (why := auto_peer.missing()) is not None:
+        why = auto_peer.missing() or (compiled.missing() if self.name == "ab compiled" else None)
+        if why is not None:
             raise Missing(why)
         case = _case(self.name)
         branch, fine = case.run(chord=chord), case.run(chord=chord / _FINER)
@@ -145,7 +148,7 @@ def plan(quick: bool, repeats: int) -> Iterator[Job]:
     for links in cases.LINKS[:3] if quick else cases.LINKS:
         measure = partial(_chain, links)
         yield Job(CHAIN, f"chain {links}", measure)
-    for name in _MECHANISMS:
+    for name in (*_MECHANISMS, "ab vectorized", "ab compiled"):
         diagrams = Diagrams(name, repeats)
         for chord in _DEFAULT if quick else _CHORDS:
             yield Job(DIAGRAM, f"{name}, {chord:.0e}", partial(diagrams.compare, chord))

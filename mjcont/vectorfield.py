@@ -14,7 +14,7 @@ from mjcont.fields.checks import Held
 from mjcont.fields.derivatives import Derivatives
 from mjcont.fields.foreign import offered
 from mjcont.fields.functions import Evaluated, raised, takes_time
-from mjcont.fields.parameters import flattened
+from mjcont.fields.parameters import declared, flattened
 from mjcont.fields.together import SideBySide
 from mjcont.numerics.equations.differences import (
     FOURTH_ORDER,
@@ -26,11 +26,8 @@ from mjcont.numerics.equations.differences import (
 from mjcont.numerics.equations.problem import Array, Linearization, Pencil, Range, Ranges, Stencil, Values
 from mjcont.results.quantities import (
     Observable,
-    Parameter,
     check_values,
-    default_bounds,
     finite_array,
-    finite_pair,
     own_observable,
     told_apart,
 )
@@ -138,31 +135,17 @@ class VectorField(SideBySide):
         self.follows_scale = scale is None
         self._f = Evaluated(name, function, self.n, timed, vectorized, self._arrays, self.state_scale)
         units = self._arrays.spread(units or {}, default)
-        self.parameters = self._declared(default, units, self._arrays.spread(bounds or {}, default))
+        self.parameters = declared(default, units, self._arrays.spread(bounds or {}, default))
         labels = list(names) if names is not None else [f"u[{i}]" for i in range(self.n)]
         if len(labels) != self.n:
             raise ParameterError(f"names: expected {self.n} names for the components of u, got {len(labels)}")
         self.state_labels = [(label, units.get(label, "")) for label in labels]
         components = {
-            label: Observable(label, unit, _component(i), of="state")
+            label: Observable(label, unit, _component(i), ("u", i), of="state")
             for i, (label, unit) in enumerate(self.state_labels)
         }
         self.observables = told_apart(components, self.parameters)
         self.keyframes: dict[str, Array] = {}
-
-    @staticmethod
-    def _declared(
-        default: Mapping[str, float], units: Mapping[str, str], bounds: Mapping[str, tuple[float, float]]
-    ) -> dict[str, Parameter]:
-        for k in bounds:
-            if k not in default:
-                raise unknown_name("parameter", k, default)
-        own = {k: finite_pair(f"bounds of {k}", b) for k, b in bounds.items()}
-        ranges = {k: own.get(k, default_bounds(v)) for k, v in default.items()}
-        found = {k: Parameter(k, units.get(k, ""), v, ranges[k], "field") for k, v in default.items()}
-        for parameter in found.values():
-            parameter.check(parameter.value)
-        return found
 
     def values(self, given: Values | None = None) -> dict[str, float]:
         """Return a value for every parameter: those given, the defaults for the others."""
@@ -219,6 +202,8 @@ class VectorField(SideBySide):
 
     def residuals(self, x: Array, values: Values, steps: Array) -> Array:
         """Return f at x plus each row of `steps`, (m, n)."""
+        if self.vectorized and len(steps):
+            return self.rates_together(x + steps, values)
         return self.rates(x + steps, [values] * len(steps), [0.0] * len(steps))
 
     def linearize(
@@ -368,8 +353,18 @@ class VectorField(SideBySide):
     def measure(self, states: Array, values: Sequence[Values] | Values, names: Sequence[str] | None = None) -> Array:
         """Return observables for states (m, n), shape (m, number of names)."""
         chosen = [self.observable(n) for n in (names if names is not None else self.observables)]
+        found = np.empty((len(states), len(chosen)))
         per_row = [values] * len(states) if isinstance(values, Mapping) else values
-        return np.array([[_measured(o, v, x) for o in chosen] for x, v in zip(states, per_row, strict=True)])
+        for k, o in enumerate(chosen):
+            own = [] if o.source else [_measured(o, v, x) for x, v in zip(states, per_row, strict=True)]
+            found[:, k] = states[:, o.source[1]] if o.source else own
+        return found
+
+    def measure_along(self, states: Array, values: Values, driven: Mapping[str, Array]) -> Array:
+        """Return all observables for states (m, n), parameters having values of their own in each (m,), by name."""
+        if all(o.source is not None for o in self.observables.values()):  # no parameter counts
+            return self.measure(states, values)
+        return super().measure_along(states, values, driven)
 
     def __str__(self) -> str:
         """List parameters and components."""

@@ -11,12 +11,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import mjcont as mc
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
-from benchmarks import auto_peer, run  # noqa: E402
+from benchmarks import auto_peer, cases, compiled, run  # noqa: E402
 from benchmarks.book import Book, Job, Missing  # noqa: E402
 from benchmarks.layout import DIAGRAM, ORBITS, POINTS, Table  # noqa: E402
 from benchmarks.measure import medians  # noqa: E402
@@ -101,10 +102,32 @@ def test_a_peer_that_is_not_there_is_a_row_but_no_failure(monkeypatch, tmp_path:
     book = Book(tmp_path / "bench.json", {}, Table())
     diagrams = [job for job in run.plan(True, 1) if job.section == DIAGRAM]
     book.run(diagrams)
-    assert len(diagrams) == 4
+    assert len(diagrams) == 6
     assert all(row == {"missing": "AUTO-07p is not installed"} for row in written(book)[DIAGRAM].values())
     assert not book.broken
     assert "overcentre, 3e-06: not measured: AUTO-07p is not installed" in capsys.readouterr().out
+
+
+@pytest.mark.skipif(compiled.missing() is not None, reason="no compiler")
+def test_the_compiled_reaction_is_the_one_in_python() -> None:
+    alone, together = (cases.reaction(kind).problem for kind in ("", "compiled"))
+    states, heats = np.array([[0.1, 0.2], [0.4, 1.4], [0.9, 3.0]]), np.array([0.0, 0.2, 0.4])
+    for problem in (alone, together):
+        found = problem.residuals_along(states, problem.values(), {"D": heats})
+        assert found == pytest.approx(np.array([[-0.1, -0.8], *rates(states[1:], heats[1:])]), rel=1e-14)
+
+
+def rates(states: Any, heats: Any) -> Any:
+    """Return f of `ab` as it is written in the books, with B = 14 and a cooling of 3."""
+    u, v = states.T
+    return np.array([-u + heats * (1.0 - u) * np.exp(v), -v + 14.0 * heats * (1.0 - u) * np.exp(v) - 3.0 * v]).T
+
+
+def test_the_fields_of_the_benchmarks_have_one_curve() -> None:
+    kinds = ["", "vectorized", *([] if compiled.missing() else ["compiled"])]
+    branches = [cases.reaction(kind).run(chord=1e-4) for kind in kinds]
+    hopf = [[p["D"] for p in b.special_points] for b in branches]
+    assert all(points == pytest.approx(hopf[0], abs=1e-9) and len(points) == 2 for points in hopf)
 
 
 def test_a_run_that_fails_leaves_the_figures_of_the_others():

@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from mjcont.numerics.equations.settings import Settings
 from mjcont.numerics.equations.system import Local, System
 from mjcont.numerics.points.events import Located
 from mjcont.numerics.points.kinds import KINDS, holds_eigenvalues
+from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import local_spectrum, verdict_at
 from mjcont.numerics.step.arclength import CurvePoint, first_point
 from mjcont.numerics.walk.steps import End, Item, Status
@@ -146,23 +148,22 @@ def collect(
         name = model_of(system.problem).name
         raise StartError(f"{name}: " + "; ".join(t.end.message for t in traces))
     start = rows[start_index][0]
-    table = completed(kind, system, rows, settings, traces)
+    table = completed(system, rows, settings, traces)
     start_index = next(i for i, p in enumerate(table.points) if p is start)
     return build_branch(kind, table, traces, origin, start_index, settings, notes)
 
 
 def completed(
-    kind: str,
     system: System,
     rows: Sequence[tuple[CurvePoint, Located | None]],
     settings: Settings,
     traces: Sequence[Trace],
 ) -> CurveRows:
-    """Return the rows of a curve, with rows between its points unless it is a locus or the user stopped it.
+    """Return the rows of a curve, with rows between its points unless the user stopped it.
 
     An interrupt meanwhile keeps the points, and ends the last of the curve's traces.
     """
-    if kind == "equilibria" and not any(t.end.status in (Status.INTERRUPTED, Status.MAX_TIME) for t in traces):
+    if not any(t.end.status in (Status.INTERRUPTED, Status.MAX_TIME) for t in traces):
         try:
             return curve_rows(system, rows, settings.chord)
         except clock.TimeUp:
@@ -195,11 +196,7 @@ def build_branch(
     """Return the branch of ordered rows: columns, spectra, labelled special points, provenance."""
     system, states = rows.system, rows.states
     problem = model_of(system.problem)
-    words, counts, spectra = rows.stability()
-    for i, s in enumerate(spectra):
-        at = _kind_at(kind, rows.located[i])
-        if at and s is not None:
-            words[i], counts[i] = verdict_at(KINDS[at].holds, s)
+    words, counts, spectra = rows.stability(partial(_judged, kind))
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
     base, unit_of = rows.values(0), units(problem)
     columns = _columns(rows, problem, unit_of)
@@ -249,6 +246,12 @@ def _columns(rows: CurveRows, problem: Model, unit_of: Mapping[str, str]) -> dic
         if name not in columns:
             columns[name] = Column(name, unit_of[name], "observable", _frozen(measured[:, k]))
     return columns
+
+
+def _judged(kind: str, special: Located | None, s: Spectrum) -> tuple[str, int]:
+    """Return stability and number of unstable eigenvalues of a row of a curve of a kind."""
+    at = _kind_at(kind, special) if special is not None or kind != "equilibria" else ""
+    return verdict_at(KINDS[at].holds, s) if at else (s.stability, s.n_unstable)
 
 
 def _kind_at(curve: str, special: Located | None) -> str:

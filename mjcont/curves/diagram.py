@@ -151,7 +151,7 @@ def _through(
     minus, plus = (ordered_rows(h) if h.points else [] for h in halves)
     rows: list[tuple[CurvePoint, Located | None]] = [*minus[::-1], (bp_point, located), *plus]
     notes = ["its two halves are mirror images"] if _mirrored(system, minus, plus) else []
-    table = completed("equilibria", system, rows, settings, halves)
+    table = completed(system, rows, settings, halves)
     index = next(i for i, e in enumerate(table.located) if e is located)
     return build_branch("equilibria", table, halves, f"through {point.label}", index, settings, notes)
 

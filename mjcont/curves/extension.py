@@ -189,7 +189,7 @@ def _as_branch(
             return s > known + _SAME
         return s > known - _SAME and not _has(branch, system, e)
 
-    rows = completed(branch.kind, system, ordered_rows(run), settings, [run])
+    rows = completed(system, ordered_rows(run), settings, [run])
     new = [i for i in range(1, len(rows)) if is_new(float(rows.s[i]), rows.located[i])]
     if not new:
         return None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,9 @@ from mjcont.numerics.spectra.spectrum import Spectrum
 from mjcont.numerics.spectra.stability import spectra_at, verdicts
 from mjcont.numerics.step.arclength import OUTSIDE, CurvePoint
 from mjcont.numerics.walk.between import rows_between
+
+# stability and number of unstable eigenvalues of a row, told by its special point, if it is one, and its spectrum
+Judged = Callable[[Located | None, Spectrum], tuple[str, int]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,22 +63,26 @@ class CurveRows:
         return self.system.free[i].values(self.coordinates[:, i])
 
     def late_spectra(self, indices: Sequence[int]) -> list[Spectrum]:
-        """Return the spectra in some rows of a curve with one free parameter."""
+        """Return the spectra in some rows."""
         if not len(indices):
             return []
         every: list[Values] = [self.values(i) for i in indices]
-        (name,), (bounds,) = self.system.names, self.system.ranges
-        return spectra_at(self.system.problem, self.states[indices], every, name, bounds)
+        free = dict(zip(self.system.names, self.system.ranges, strict=True))
+        return spectra_at(self.system.problem, self.states[indices], every, free)
 
-    def stability(self) -> tuple[list[str], list[int], list[Spectrum | None]]:
+    def stability(self, judged: Judged) -> tuple[list[str], list[int], list[Spectrum | None]]:
         """Return stability, number of unstable eigenvalues, and the spectrum where it was needed, of every row.
 
-        A row between points has the stability of those beside it; where they disagree without a special point that
-        explains it, or both are special points, it has one of its own.
+        `judged` takes a row's special point, if it is one, and its spectrum. A row between points has the stability of
+        those beside it; where they disagree without a special point that explains it, or both are special points, it
+        has one of its own.
         """
         own = [i for i, p in enumerate(self.points) if p is not None]
         special = {k for k, i in enumerate(own) if self.located[i] is not None or self.system.conditions}
         words, counts, spectra = verdicts([p for p in self.points if p is not None], special)
+        for k, s in enumerate(spectra):
+            if s is not None:
+                words[k], counts[k] = judged(self.located[own[k]], s)
         if len(own) == len(self):
             return words, counts, spectra
         found: list[tuple[str, int]] = []
@@ -93,7 +100,7 @@ class CurveRows:
             every += [None] * between
             every.append(spectra[k])
         for i, s in zip(asked, self.late_spectra(asked), strict=True):
-            every[i], found[i] = s, (s.stability, s.n_unstable)
+            every[i], found[i] = s, judged(None, s)
         return [w for w, _ in found], [c for _, c in found], every
 
     def _passes(self, index: int) -> bool:
@@ -130,10 +137,8 @@ def curve_rows(system: System, rows: Sequence[tuple[CurvePoint, Located | None]]
 
 
 def _cheap(system: System, chord: float) -> bool:
-    """Whether many states that differ in the free parameter are evaluated side by side."""
-    if math.isinf(chord) or len(system.free) != 1 or system.conditions:
-        return False
-    return system.problem.side_by_side(system.names[0])
+    """Whether many states that differ in the free parameters are evaluated side by side."""
+    return not math.isinf(chord) and all(map(system.problem.side_by_side, system.names))
 
 
 def _places(rows: Sequence[tuple[CurvePoint, Located | None]], regular: Sequence[int]) -> Array:

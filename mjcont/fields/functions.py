@@ -175,7 +175,7 @@ class Evaluated:
     def _columns(self, states: Array, values: Mapping[str, Any], times: float | Array) -> Array:
         check()
         what, m = f"the function of {self.owner}", len(states)
-        columns = np.array(states.T)  # the user's own
+        columns = np.array(states.T, order="C")  # the user's own
         try:
             p = self.arrays.seen(values, m)
             found = self.function(columns, p, times) if self.timed else self.function(columns, p)

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from mjcont.errors import ParameterError
-from mjcont.results.quantities import finite
+from mjcont.errors import ParameterError, unknown_name
+from mjcont.results.quantities import Parameter, default_bounds, finite, finite_pair
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +65,27 @@ def flattened(parameters: Mapping[str, Any]) -> tuple[dict[str, float], Arrays]:
                 raise ParameterError(f"two parameters are called '{entry}': rename one, or leave it in the array")
             values[entry] = number
     return values, Arrays(arrays)
+
+
+def declared(
+    default: Mapping[str, float], units: Mapping[str, str], bounds: Mapping[str, tuple[float, float]]
+) -> dict[str, Parameter]:
+    """Return the parameters with these values, by name; ranges that are not given are a guess.
+
+    Raises
+    ------
+    ParameterError, BoundsError, NameLookupError
+        If a value or range is none, or there is a range for no parameter.
+    """
+    for name in bounds:
+        if name not in default:
+            raise unknown_name("parameter", name, default)
+    own = {name: finite_pair(f"bounds of {name}", pair) for name, pair in bounds.items()}
+    ranges = {name: own.get(name, default_bounds(value)) for name, value in default.items()}
+    found = {n: Parameter(n, units.get(n, ""), value, ranges[n], "field") for n, value in default.items()}
+    for parameter in found.values():
+        parameter.check(parameter.value)
+    return found
 
 
 def _shape(value: Any) -> tuple[int, ...] | None:

@@ -16,6 +16,8 @@ from mjcont.results.model import Model
 
 # values beside a parameter's own at which its derivative asks for f
 _BESIDE = 4
+# unknowns up to which matrices of many points are held, and numbers that are asked for in one call at most
+_MOST, _NUMBERS = 200, 2**21
 
 # f (m, n) at states (m, n), values of parameters being numbers or (m,)
 Rates = Callable[[Array, Mapping[str, Any]], Array]
@@ -76,20 +78,20 @@ class SideBySide(Model):
         """Return f at states (m, n), (m, n); parameter values and times are numbers, or (m,) where they differ."""
 
     def side_by_side(self, name: str) -> bool:
-        """Whether the function takes many states at once, and matrices are dense."""
+        """Whether the function takes many states at once, and matrices are dense and not too large."""
         del name
-        return self.vectorized and not self._sparse
+        return self.vectorized and self.n <= _MOST and not self._sparse
 
     @cached_property
     def _sparse(self) -> bool:
         """Whether df/du is sparse, as it is at the start."""
         return self.own_jacobian and sparse.issparse(self.linearize(self.start_state(), self.values(), ()).jac)
 
-    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return f at states (m, n), a parameter having a value of its own in each (m,), shape (m, n)."""
+    def residuals_along(self, states: Array, values: Values, columns: Mapping[str, Array]) -> Array:
+        """Return f at states (m, n), parameters having values of their own in each (m,), by name, shape (m, n)."""
         if not self.vectorized:
-            return super().residuals_along(states, values, name, column)
-        return self.rates_together(states, {**values, name: column})
+            return super().residuals_along(states, values, columns)
+        return self.rates_together(states, {**values, **columns})
 
     def linearize_along(
         self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
@@ -98,7 +100,11 @@ class SideBySide(Model):
         if not self.side_by_side(name):
             return None
         if self.differenced:
-            f, jac, par = self._linearized(states, values, {name: column}, {name: bounds})
+            many, parts = max(_NUMBERS // (self.n * (5 + 4 * self.n)), 1), list[tuple[Array, Array, Array]]()
+            for first in range(0, len(states), many):
+                part = slice(first, first + many)
+                parts.append(self._linearized(states[part], values, {name: column[part]}, {name: bounds}))
+            f, jac, par = (np.concatenate(each) for each in zip(*parts, strict=True))
             return f, jac, par[:, :, 0]
         every = [
             self.linearize(x, {**values, name: v}, (name,), ranges=(bounds,))

@@ -16,6 +16,8 @@ from mjcont.results.quantities import Parameter
 
 # states whose derivatives share a batch, where they have few degrees of freedom
 _TOGETHER, _SMALL = 4, 40
+# numbers of states in a batch
+_SIZES = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
 
 
 @dataclass(slots=True)
@@ -87,15 +89,21 @@ class Derivatives:
         """Whether rows of one batch may differ in a parameter."""
         return not self.evaluator.nonsmooth and self.writer.alone(self.parameters, name)
 
-    def along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return forces at states (m, nq), a parameter having a value of its own in each (m,), shape (m, nv)."""
-        if self.side_by_side(name):
-            controls = self.writer.controls(self.parameters, values, {name: column})
-            return self.evaluator.forces(states, ctrl=controls).copy()
+    def along(self, states: Array, values: Values, columns: Mapping[str, Array]) -> Array:
+        """Return forces at states (m, nq), parameters having values of their own in each (m,), shape (m, nv)."""
         found = np.empty((len(states), len(self.scale)))
-        for i, value in enumerate(column.tolist()):
-            self.writer.write(self.parameters, {**values, name: value})
-            found[i] = self.evaluator.forces(states[i][None])[0]
+        if not all(map(self.side_by_side, columns)):
+            for i in range(len(states)):
+                own = {name: float(column[i]) for name, column in columns.items()}
+                self.writer.write(self.parameters, {**values, **own})
+                found[i] = self.evaluator.forces(states[i][None])[0]
+            return found
+        controls, first, count = self.writer.controls(self.parameters, values, columns), 0, len(states)
+        while first < count:  # in batches of few sizes, so that they are kept
+            size = next((s for s in _SIZES if s >= count - first), _SIZES[-1])
+            rows = np.minimum(np.arange(first, first + size), count - 1)
+            found[first : first + size] = self.evaluator.forces(states[rows], ctrl=controls[rows])[: count - first]
+            first += size
         return found
 
     def linearize_along(

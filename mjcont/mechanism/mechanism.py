@@ -10,7 +10,7 @@ parameter values: they are arguments of every method.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -232,14 +232,14 @@ class Mechanism(Shareable, Observed, Held, Model):
         """Whether states that differ in a parameter are evaluated in one batch: the forces are smooth, it a control."""
         return not self._held and self._core.derivatives.side_by_side(name)
 
-    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return the residual at states (m, nq), a parameter having a value of its own in each (m,), shape (m, nv)."""
-        return self._core.derivatives.along(states, values, name, column)
+    def residuals_along(self, states: Array, values: Values, columns: Mapping[str, Array]) -> Array:
+        """Return the residual at states (m, nq), parameters having values of their own in each (m,), shape (m, nv)."""
+        return self._core.derivatives.along(states, values, columns)
 
     def linearize_along(
         self, states: Array, values: Values, name: str, column: Array, bounds: Range | None = None
     ) -> tuple[Array, Array, Array] | None:
-        """Return the residual and its derivatives in the state and in a parameter; arguments as `residuals_along`."""
+        """Return the residual and its derivatives in the state and in a parameter that differs between the states."""
         return None if self._held else self._core.derivatives.linearize_along(states, values, name, column, bounds)
 
     def together(self, names: Sequence[str]) -> int:

@@ -124,6 +124,16 @@ class Leg(Model):
         """Return f at x moved by each row of steps, (m, n)."""
         return self.problem.residuals(x, self.at(values), steps)
 
+    def side_by_side(self, name: str) -> bool:
+        """Whether many states that differ in the fraction cost hardly more than one."""
+        return name == FRACTION and all(map(self.problem.side_by_side, self.first))
+
+    def residuals_along(self, states: Array, values: Values, columns: Mapping[str, Array]) -> Array:
+        """Return f at states (m, nq), the fraction having a value of its own in each, shape (m, n)."""
+        t = columns[FRACTION]
+        moved = {n: (1.0 - t) * self.first[n] + t * self.last[n] for n in self.first}
+        return self.problem.residuals_along(states, self.at({FRACTION: 0.0, **values}), moved)
+
     def linearize(
         self, x: Array, values: Values, wrt: Sequence[str], *, accurate: bool = False, ranges: Ranges = ()
     ) -> Linearization:

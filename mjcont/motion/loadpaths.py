@@ -96,7 +96,7 @@ def load_path(
     """
     problem, given = _sourced(source)
     _check_landing(landing, max_time, max_jumps)
-    settings = replace(make_settings(options), chord=math.inf)  # rows are the points that were reached in turn
+    settings = make_settings(options)
     vertices = loads_of(problem, parameter, path, start)
     before = problem.evaluations
     first = _first(problem, given, vertices[0], start, keyframe, state)

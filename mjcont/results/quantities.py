@@ -203,8 +203,8 @@ class Parameter:
 class Observable:
     """A named scalar read from a state: `function(model, data)` for a Mechanism, in `unit`.
 
-    `source` is the field of MuJoCo's data and the entry in it, where the observable is no more than that, `of` what
-    it belongs to, one of `OWNERS`.
+    `source` is the field of MuJoCo's data, or the state of a plain field, and the entry in it, where the observable is
+    no more than that, `of` what it belongs to, one of `OWNERS`.
     """
 
     name: str

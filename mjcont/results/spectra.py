@@ -123,8 +123,4 @@ class Late:
         free = [{n: float(c[i]) for n, c in self.columns.items()} for i in rows]
         base = problem.values({**self.fixed, **free[0]})
         values = [{**base, **v} for v in free]
-        name, bounds = next(iter(self.free.items()))
-        if len(self.free) == 1:
-            return [s.eigenvalues for s in spectra_at(problem, self.states[list(rows)], values, name, bounds)]
-        each = zip(rows, values, strict=True)
-        return [spectra_at(problem, self.states[[i]], [v], name, bounds)[0].eigenvalues for i, v in each]
+        return [s.eigenvalues for s in spectra_at(problem, self.states[list(rows)], values, self.free)]

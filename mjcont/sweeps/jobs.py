@@ -117,7 +117,8 @@ def trace_points(
     for plan in plans:
         key = f"{plan.of} {plan.parameter}" if plan.of else plan.branch
         if key not in traced and plan.of:
-            traced[key] = continue_special(found[plan.of], plan.parameter, plan.bounds)
+            special = found[plan.of]
+            traced[key] = continue_special(special, plan.parameter, plan.bounds, chord=math.inf)  # for its points alone
         elif key not in traced:
             traced[key] = _branch(mechanism, by_name[plan.branch], values)
         try:

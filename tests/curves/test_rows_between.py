@@ -155,7 +155,7 @@ def test_rows_on_both_sides_of_a_double_crossing_have_the_stability_of_their_sid
     (run,) = run_directions(walker, x, system.start_y(), (1.0,), None)
     assert [e.kind for e in run.special] == ["BP"]
     rows = curve_rows(system, [r for r in ordered_rows(run) if told or r[1] is None], 1e-6)
-    loads, (words, counts, spectra) = rows.column(0), rows.stability()
+    loads, (words, counts, spectra) = rows.column(0), rows.stability(lambda special, s: (s.stability, s.n_unstable))
     assert len(rows) > 5 * len(run.points)
     own = [s is not None and p is None for s, p in zip(spectra, rows.points, strict=True)]
     assert any(own) is not told

@@ -55,7 +55,7 @@ def test_a_control_that_mujoco_does_not_take_gives_no_number_instead_of_the_forc
 
 def test_of_rows_side_by_side_only_those_with_such_a_control_are_no_numbers():
     mechanism = mc.Mechanism.from_xml(PLAIN)
-    rows = mechanism.residuals_along(np.array([[0.1]] * 3), mechanism.values(), "M", np.array([1.0, HUGE, 1.0]))
+    rows = mechanism.residuals_along(np.array([[0.1]] * 3), mechanism.values(), {"M": np.array([1.0, HUGE, 1.0])})
     assert np.isnan(rows[:, 0]).tolist() == [False, True, False]
     assert rows[0, 0] == mechanism.residual(np.array([0.1]), {**mechanism.values(), "M": 1.0})[0]
 

@@ -252,7 +252,7 @@ CASES = {
     "differences.by_orders": lambda b: differences.by_orders(np.full((7, b.n), np.nan), 2, 1e-2),
     "differences.combine": lambda b: differences.combine(lambda rows: rows, b.v, 2, 1e-2),
     "differences.settled_combine": lambda b: [
-        differences.settled_combine(lambda rows, fill=fill: np.full((len(rows), b.n), fill), b.v, 2, 1e-2)
+        differences.settled_combine(lambda rows, fill=fill: np.full((len(rows), b.n), fill), b.v[None], 2, 1e-2)
         for fill in (0.0, math.nan, math.inf)
     ],
     "differences.second_form": lambda b: differences.second_form(b.problem, b.x, b.values, b.v, 0.0 * b.v),
@@ -354,7 +354,7 @@ CASES = {
     "stability.spectrum_of": lambda b: stability.spectrum_of(b.point()),
     "stability.negative_stiffness": lambda b: stability.negative_stiffness(b.point()),
     "stability.spectra_of": lambda b: stability.spectra_of([]),
-    "stability.spectra_at": lambda b: stability.spectra_at(b.problem, b.x[None], [b.values], "p", (0.0, 1.0)),
+    "stability.spectra_at": lambda b: stability.spectra_at(b.problem, b.x[None], [b.values], {"p": (0.0, 1.0)}),
     "stability.verdicts": lambda b: stability.verdicts(b.pair, []),
     "stability.verdict_at": lambda b: [
         stability.verdict_at(k.holds, stability.local_spectrum(b.local)) for k in kinds.KINDS.values()

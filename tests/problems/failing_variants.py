@@ -189,6 +189,7 @@ CASES = {
     "abreast.singular_at": lambda b: abreast.singular_at(b.parts),
     "abreast.within": lambda b: abreast.within(b.v + 0j),
     "algebra.determinant_signs": lambda b: algebra.determinant_signs(b.of(b.n, b.n)),
+    "algebra.kernels": lambda b: algebra.kernels(b.of(b.n, b.n + 2)),
     "algebra.solve_each": lambda b: algebra.solve_each(b.of(b.n, b.n), b.v),
     "alongside.move": BadRows.moved,
     "bundle.Bundle": BadRows.in_a_bundle,

@@ -26,7 +26,7 @@ def by_columns(f):
 def vectorized(field):
     """Return a field whose function takes many states at once."""
     values, names = {p.name: p.value for p in field.parameters.values()}, [name for name, _ in field.state_labels]
-    f = by_columns(field.function)
+    f = by_columns(field.residual)
     return mc.VectorField(f, field.u0, values, names=names, name=field.name, vectorized=True)
 
 

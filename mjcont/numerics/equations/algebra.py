@@ -42,6 +42,16 @@ def inverses(matrices: Array) -> Array:
     return _each(np.linalg.inv, matrices, like=matrices)
 
 
+def kernels(matrices: Array) -> Array:
+    """Return orthonormal vectors (m, l - k, l) that matrices (m, k, l) take to zero, l > k; NaN where they have none.
+
+    Rows count alike, whatever their size.
+    """
+    sizes = np.abs(matrices).max(axis=2, initial=0.0)[:, :, None]
+    found: Array = singular(matrices / np.where(sizes > 0.0, sizes, 1.0))[2][:, matrices.shape[1] :]
+    return found
+
+
 def least_squares(matrix: Array, rhs: Array) -> Array:
     """Return the shortest z with the least |A z - rhs|; NaN where A or rhs is not finite."""
     columns = np.full((matrix.shape[1], *rhs.shape[1:]), np.nan)

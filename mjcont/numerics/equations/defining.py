@@ -253,11 +253,12 @@ class Hopf(Condition):
     def _block(self, local: Local, k: float) -> Array:
         mass, damping, stiffness = (self.rows[:, None] * a for a in self._unscaled(local))
         even, odd = stiffness - k * mass, damping
-        return np.block([[even, -k * odd], [odd, even]])
+        blocks = [[even, -k * odd], [odd, even]]
+        return np.concatenate([np.concatenate(row, axis=1) for row in blocks])  # np.block takes ten times as long
 
     def _bordered(self, local: Local, k: float) -> Array:
-        columns = np.column_stack([np.append(self.b0, self.b1), np.append(-k * self.b1, self.b0)])
-        rows = np.array([np.append(self.c0, -k * self.c1), np.append(self.c1, self.c0)])
+        columns = np.concatenate([self.b0, self.b1, -k * self.b1, self.b0]).reshape(2, -1).T
+        rows = np.concatenate([self.c0, -k * self.c1, self.c1, self.c0]).reshape(2, -1)
         found: Array = border(self._block(local, k), columns, rows)
         return found
 

@@ -137,34 +137,40 @@ _SHORTER, _ROUNDS, _SMALL = 0.3, 8, 1e-7
 _ROUNDING, _TOLD = 1e-15, 1e2
 
 
-def by_orders(rows: Array, order: int, h: float) -> tuple[Array, Array, Array]:
-    """Return a derivative of f from its rows at `NODES`, of the third order at `FAR_NODES`, times h.
+def by_orders(rows: Array, order: int, h: float | Array) -> tuple[Array, Array, Array]:
+    """Return a derivative of f from its rows (..., nodes, n) at `NODES`, of the third order at `FAR_NODES`, times h.
 
-    Of sixth, fourth and second order, (n,) each.
+    Of sixth, fourth and second order, (..., n) each; h is a number or (..., 1).
     """
-    weights = {1: FIRST, 2: SECOND, 3: THIRD}[order]
-    sixth, fourth, second = (w @ rows / np.float64(h) ** order for w in (weights, *_LOWER[order]))
+    weights, power = {1: FIRST, 2: SECOND, 3: THIRD}[order], np.asarray(h, dtype=float) ** order
+    sixth, fourth, second = (w @ rows / power for w in (weights, *_LOWER[order]))
     return sixth, fourth, second
 
 
-def settled_combine(f: Callable[[Array], Array], v: Array, order: int, h: float) -> tuple[Array, float]:
-    """Return `combine` with a step that suits f, and its relative error, zero where rounding alone is left.
+def settled_combine(f: Callable[[Array], Array], vectors: Array, order: int, h: float) -> tuple[Array, Array]:
+    """Return `combine` along vectors (k, n), (k, n), with steps that suit f, and relative errors (k,).
 
-    What an order of two more changes falls from order to order by a factor, by which the last change falls once more.
+    These are zero where rounding alone is left. What an order of two more changes falls from order to order by a
+    factor, by which the last change falls once more. Along all vectors f is evaluated in one call.
     """
-    best, least, relative = np.zeros(0), np.inf, 0.0
-    nodes = FAR_NODES if order == 3 else NODES
-    for _ in range(_ROUNDS):
-        rows = f((nodes * h)[:, None] * v)
-        sixth, fourth, second = by_orders(rows, order, h)
-        size, last, first = (float(np.abs(a).max()) for a in (sixth, sixth - fourth, fourth - second))
-        noise = _ROUNDING * float(np.abs(rows).max()) / h**order
-        error = last * min(1.0, last / max(first, 1e-300))
-        if not best.size or error < least:
-            best, least, relative = sixth, error, max(error, noise) / size if size > _TOLD * noise else 0.0
-        if not (noise < error <= least and error > _SMALL * size):
+    (count, n), nodes = vectors.shape, FAR_NODES if order == 3 else NODES
+    best, least, relative = np.zeros((count, n)), np.full(count, np.inf), np.zeros(count)
+    steps, going = np.full(count, h), np.arange(count)
+    for turn in range(_ROUNDS):
+        rows = f(((nodes * steps[going, None])[:, :, None] * vectors[going, None]).reshape(-1, n))
+        rows = rows.reshape(len(going), len(nodes), n)
+        sixth, fourth, second = by_orders(rows, order, steps[going, None])
+        size, last, first = (np.abs(a).max(axis=1) for a in (sixth, sixth - fourth, fourth - second))
+        noise = _ROUNDING * np.abs(rows).max(axis=(1, 2)) / steps[going] ** order
+        error = last * np.minimum(1.0, last / np.maximum(first, 1e-300))
+        better = (error < least[going]) | (turn == 0)
+        chosen = going[better]
+        best[chosen], least[chosen] = sixth[better], error[better]
+        relative[chosen] = np.where(size > _TOLD * noise, np.maximum(error, noise) / size, 0.0)[better]
+        going = going[(noise < error) & (error <= least[going]) & (error > _SMALL * size)]
+        if not len(going):
             break
-        h *= _SHORTER
+        steps[going] *= _SHORTER
     return best, relative
 
 

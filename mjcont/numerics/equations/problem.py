@@ -257,9 +257,10 @@ class Equations(ABC):
         del name
         return False
 
-    def residuals_along(self, states: Array, values: Values, name: str, column: Array) -> Array:
-        """Return f at states (m, nq), a parameter having a value of its own in each (m,), shape (m, n)."""
-        found = [self.residual(x, {**values, name: v}) for x, v in zip(states, column.tolist(), strict=True)]
+    def residuals_along(self, states: Array, values: Values, columns: Mapping[str, Array]) -> Array:
+        """Return f at states (m, nq), parameters having values of their own in each (m,), by name, shape (m, n)."""
+        each = ({name: float(column[i]) for name, column in columns.items()} for i in range(len(states)))
+        found = [self.residual(x, {**values, **own}) for x, own in zip(states, each, strict=True)]
         return np.array(found).reshape(len(states), self.n)
 
     def linearize_along(

@@ -37,9 +37,9 @@ class Settings:
     max_points, max_arclength : limits of one direction; rows between points do not count.
     max_seconds : limit of all that is computed, the start (if it is not near) and both directions together.
     chord : float
-        Largest distance of straight lines between the rows of a branch from the curve, where rows between its points
-        are cheap: along a control of a mechanism without contacts, limits or friction. Infinity adds none. It has no
-        effect on loci and load paths.
+        Largest distance of straight lines between the rows of a branch, a locus or a load path from the curve, where
+        rows between its points are cheap: along controls of a mechanism without contacts, limits or friction, and of a
+        vectorized field. Infinity adds none.
     max_size : float
         Largest scaled state coordinate, relative to the start's if that exceeds one: where a curve runs off.
     """

@@ -26,7 +26,6 @@ _SLOPE_STEP = 5e-3  # the noise of a condition with stiff bushes over it and the
 ROW_GUARD = 1e-3
 VANISHES = 1e-10
 _EVERYWHERE = (-math.inf, math.inf)
-_BATCHES = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
 
 
 class Local:
@@ -124,10 +123,10 @@ def equation_scale(local: Local) -> Array:
 
 
 def equation_sizes(jacs: Array) -> Array:
-    """Return the size of each equation, guarded as in `equation_scale`, from matrices (m, n, n + 1), shape (m, n)."""
+    """Return the size of each equation, guarded as in `equation_scale`, from matrices (m, n, n + 1 or more), (m, n)."""
     n = jacs.shape[1]
     largest = np.abs(jacs[:, :, :n]).max(axis=2)
-    top: Array = np.maximum(largest.max(axis=1), ROW_GUARD * np.abs(jacs[:, :, n]).max(axis=1))
+    top: Array = np.maximum(largest.max(axis=1), ROW_GUARD * np.abs(jacs[:, :, n:]).max(axis=(1, 2)))
     found: Array = np.maximum(largest, ROW_GUARD * top[:, None])
     return found
 
@@ -236,17 +235,9 @@ class System:
         return found
 
     def residuals_at(self, states: Array, coordinates: Array) -> Array:
-        """Return f at states (m, nq) of a system with one free parameter, with its coordinates (m, k), shape (m, n)."""
-        (p,) = self.free
-        found, values = np.empty((len(states), self.n)), p.values(coordinates[:, 0])
-        first, count = 0, len(states)
-        while first < count:  # in batches of few sizes, so that they are kept
-            size = next((s for s in _BATCHES if s >= count - first), _BATCHES[-1])
-            rows = np.minimum(np.arange(first, first + size), count - 1)
-            here = self.problem.residuals_along(states[rows], self.base, p.name, values[rows])
-            found[first : first + size] = here[: count - first]
-            first += size
-        return found
+        """Return f at states (m, nq) with coordinates (m, k), shape (m, n)."""
+        columns = {p.name: p.values(coordinates[:, i]) for i, p in enumerate(self.free)}
+        return self.problem.residuals_along(states, self.base, columns)
 
     def _aux(self, y: Array) -> list[Array]:
         parts, at = [], len(self.free)

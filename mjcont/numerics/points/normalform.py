@@ -95,15 +95,24 @@ class FirstOrder:
         """Return the largest component of a vector in units of its coordinate's scale."""
         return float(np.max(np.abs(v) / self.scale))
 
-    def _along(self, v: Array, order: int) -> Array:
-        length = self.size(v)
-        if length == 0.0:
-            return np.zeros(len(v))
-        own = self._problem.own_jacobian and not self._problem.second_order
-        function = partial(self._slopes, v / length) if own else self._f
-        found, error = settled_combine(function, v / length, order - own, self._shorter * {2: 1e-2, 3: 2e-2}[order])
-        self.error = max(self.error, error)
-        return found * np.float64(length) ** order
+    def _along(self, order: int, *vectors: Array) -> list[Array]:
+        """Return the derivatives of an order along some vectors; those of first-order systems in one go."""
+        stack = np.array(vectors)
+        found, lengths = np.zeros(stack.shape), (np.abs(stack) / self.scale).max(axis=1)
+        chosen = np.flatnonzero(lengths != 0.0)
+        units = stack[chosen] / lengths[chosen, None]
+        own, step = self._problem.own_jacobian, self._shorter * {2: 1e-2, 3: 2e-2}[order]
+        if self._problem.second_order or own:
+            own = own and not self._problem.second_order
+            each = [
+                settled_combine(partial(self._slopes, u) if own else self._f, u[None], order - own, step) for u in units
+            ]
+            parts, errors = np.array([a[0] for a, _ in each]).reshape(units.shape), np.array([e[0] for _, e in each])
+        else:
+            parts, errors = settled_combine(self._f, units, order, step)
+        self.error = max(self.error, float(errors.max(initial=0.0)))
+        found[chosen] = parts * lengths[chosen, None] ** order
+        return list(found)
 
     def _slopes(self, v: Array, rows: Array) -> Array:
         """Return J v at steps (m, n), from the problem's own Jacobian."""
@@ -112,14 +121,19 @@ class FirstOrder:
 
     def second(self, u: Array, v: Array) -> Array:
         """Return B(u, v) for complex vectors."""
-        if np.iscomplexobj(u) or np.iscomplexobj(v):
-            ur, ui, vr, vi = np.real(u), np.imag(u), np.real(v), np.imag(v)
-            real = self.second(ur, vr) - self.second(ui, vi)
-            return real + 1j * (self.second(ur, vi) + self.second(ui, vr))
-        own = self._own(u, v)
-        if own is not None:
+        if not (np.iscomplexobj(u) or np.iscomplexobj(v)):
+            return self._seconds((u, v))[0]
+        ur, ui, vr, vi = np.real(u), np.imag(u), np.real(v), np.imag(v)
+        one, two, three, four = self._seconds((ur, vr), (ui, vi), (ur, vi), (ui, vr))
+        return one - two + 1j * (three + four)
+
+    def _seconds(self, *pairs: tuple[Array, Array]) -> list[Array]:
+        """Return B(u, v) for some pairs of real vectors."""
+        own = [f for u, v in pairs if (f := self._own(u, v)) is not None]
+        if own:
             return own
-        return 0.25 * (self._along(u + v, 2) - self._along(u - v, 2))
+        both = self._along(2, *(w for u, v in pairs for w in (u + v, u - v)))
+        return [0.25 * (plus - minus) for plus, minus in zip(both[::2], both[1::2], strict=True)]
 
     def trilinear(self, u: Array, v: Array, w: Array) -> Array:
         """Return C(u, v, w) for complex vectors."""
@@ -139,15 +153,16 @@ class FirstOrder:
         own = self._own(u, v, w)
         if own is not None:
             return own
-        plus = self._along(u + v + w, 3) - self._along(u + v - w, 3)
-        return (plus - self._along(u - v + w, 3) + self._along(u - v - w, 3)) / 24.0
+        one, two, three, four = self._along(3, u + v + w, u + v - w, u - v + w, u - v - w)
+        return (one - two - three + four) / 24.0
 
     def third(self, u: Array, v: Array) -> Array:
         """Return C(u, u, v) for real vectors."""
         own = self._own(u, u, v)
         if own is not None:
             return own
-        return (self._along(u + v, 3) - self._along(u - v, 3) - 2.0 * self._along(v, 3)) / 6.0
+        plus, minus, alone = self._along(3, u + v, u - v, v)
+        return (plus - minus - 2.0 * alone) / 6.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,12 +6,12 @@ negative eigenvalues of K (Kelvin-Tait-Chetaev), and eigenvalues can wait until 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import partial
 
 import numpy as np
 
-from mjcont.numerics.equations.algebra import symmetric_eigenvalues
+from mjcont.numerics.equations.algebra import eigenvalues, symmetric_eigenvalues
 from mjcont.numerics.equations.problem import Array, Equations, Range, Values
 from mjcont.numerics.equations.system import Local
 from mjcont.numerics.spectra.spectrum import (
@@ -19,6 +19,7 @@ from mjcont.numerics.spectra.spectrum import (
     UNSTABLE,
     Spectrum,
     conservative_spectra,
+    first_order_spectra,
     spectrum,
     symmetric,
 )
@@ -84,10 +85,13 @@ def spectra_of(points: Sequence[CurvePoint]) -> list[Spectrum]:
     return [spectrum_of(p) for p in points]
 
 
-def spectra_at(problem: Equations, states: Array, values: Sequence[Values], name: str, bounds: Range) -> list[Spectrum]:
-    """Return the spectra at equilibria, states (m, nq), between which one parameter differs, within bounds."""
+def spectra_at(
+    problem: Equations, states: Array, values: Sequence[Values], free: Mapping[str, Range]
+) -> list[Spectrum]:
+    """Return the spectra at equilibria, states (m, nq), between which free parameters differ, within their bounds."""
     found: list[Spectrum] = []
-    many = max(_ENTRIES // (2 * problem.n**2), 1)
+    (name, bounds), *others = free.items()
+    many = 1 if others else max(_ENTRIES // (2 * problem.n**2), 1)
     for first in range(0, len(states), many):
         part = slice(first, first + many)
         found += _some_spectra(problem, states[part], values[part], name, bounds)
@@ -100,6 +104,8 @@ def _some_spectra(
     column = np.array([v[name] for v in values])
     together = problem.linearize_along(states, values[0], name, column, bounds)
     every = [Local(problem, x, v, (), False) for x, v in zip(states, values, strict=True)]
+    if together is not None and not problem.second_order:
+        return first_order_spectra(together[1], eigenvalues(together[1]))
     jacs = list(together[1]) if together is not None else [local.raw_jac for local in every]
     if not problem.passive or not all(symmetric(j) for j in jacs):
         pencils = [problem.pencil(x, v, j) for x, v, j in zip(states, values, jacs, strict=True)]

@@ -21,6 +21,8 @@ from mjcont.numerics.walk.steps import End, Leap, Step
 _AHEAD = 6
 # parts of a long step that are tried next where it, or what lies inside, is refused
 _SHORTER, _UNFILLED = 0.4, 0.5
+# points that are looked at one by one
+_FEW = 3
 
 
 @dataclass(slots=True)
@@ -60,9 +62,7 @@ class Filled(OneByOne):
         if len(leaps) > 1 and leaps[-1].ending is None and not shorter:
             self._leaps = [leaps.pop()]
         found: list[Step | End] = []
-        insides = self._long.inside([(s.old, s.new) for s in leaps])
-        self._glance(leaps, insides)
-        for leap, inside in zip(leaps, insides, strict=False):
+        for leap, inside in zip(leaps, self._inside(leaps), strict=False):
             step = self._filled(leap, inside)
             if isinstance(step, Refused):
                 self._long.refused(leap.h)
@@ -71,15 +71,17 @@ class Filled(OneByOne):
             found.append(replace(step, next=shorter) if shorter and leap is leaps[-1] else step)
         return found
 
-    def _glance(self, leaps: Sequence[Leap], insides: Sequence[Interior | Refused]) -> None:
-        """Note between which points of several steps nothing lies, where all of them are to be looked at anyway."""
-        chain = [leaps[0].old]
+    def _inside(self, leaps: Sequence[Leap]) -> list[Interior | Refused]:
+        """Return the points inside steps, up to the first that is refused; note between which points nothing lies."""
+        insides, chain = self._long.inside([(s.old, s.new) for s in leaps]), [leaps[0].old]
         for leap, inside in zip(leaps, insides, strict=False):
             if isinstance(inside, Refused):
                 break
             every = [leap.old, *inside.points, leap.new]
             chain += [every[j] for _, j in self._long.spans(leap.old, leap.new, inside)]
-        glance(self.system, chain, self.settings)
+        if len(chain) > _FEW:
+            glance(self.system, chain, self.settings)
+        return insides
 
     def _run_ahead(self, point: CurvePoint, h: float) -> float:
         """Add long steps to those that wait to be filled; return what length to try where one is refused, else 0."""
@@ -99,7 +101,7 @@ class Filled(OneByOne):
     def attempt(self, point: CurvePoint, h: float) -> Step | Refused:
         """Return a step of length h with the points inside, or why it is refused."""
         leap = self.leap(point, h)
-        step = leap if isinstance(leap, Refused) else self._filled(leap, self._long.inside([(point, leap.new)])[0])
+        step = leap if isinstance(leap, Refused) else self._filled(leap, self._inside([leap])[0])
         if isinstance(step, Refused) and h > self.settings.ds_max:
             self._long.refused(h)
         return step

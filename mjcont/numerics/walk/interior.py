@@ -142,6 +142,7 @@ def fill(
         inverse = inverses(matrix)
     columns = inverse[:, :, -1]
     rows.tangents = columns / np.sqrt((columns * columns).sum(axis=1))[:, None]
+    errors[~np.isfinite(rows.tangents).all(axis=1)] = math.inf  # f has no derivatives there
     signs, settled, start = np.sign(np.linalg.det(matrix)), list[Interior](), 0
     refusal: list[Refused] = []
     for gap, history in zip(gaps, sizes, strict=False):
