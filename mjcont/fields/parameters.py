@@ -70,13 +70,19 @@ def flattened(parameters: Mapping[str, Any]) -> tuple[dict[str, float], Arrays]:
 def declared(
     default: Mapping[str, float], units: Mapping[str, str], bounds: Mapping[str, tuple[float, float]]
 ) -> dict[str, Parameter]:
-    """Return a field's parameters, each with its default, unit and range."""
-    for k in bounds:
-        if k not in default:
-            raise unknown_name("parameter", k, default)
-    own = {k: finite_pair(f"bounds of {k}", b) for k, b in bounds.items()}
-    ranges = {k: own.get(k, default_bounds(v)) for k, v in default.items()}
-    found = {k: Parameter(k, units.get(k, ""), v, ranges[k], "field") for k, v in default.items()}
+    """Return the parameters with these values, by name; ranges that are not given are a guess.
+
+    Raises
+    ------
+    ParameterError, BoundsError, NameLookupError
+        If a value or range is none, or there is a range for no parameter.
+    """
+    for name in bounds:
+        if name not in default:
+            raise unknown_name("parameter", name, default)
+    own = {name: finite_pair(f"bounds of {name}", pair) for name, pair in bounds.items()}
+    ranges = {name: own.get(name, default_bounds(value)) for name, value in default.items()}
+    found = {n: Parameter(n, units.get(n, ""), value, ranges[n], "field") for n, value in default.items()}
     for parameter in found.values():
         parameter.check(parameter.value)
     return found

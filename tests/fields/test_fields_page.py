@@ -31,6 +31,14 @@ def test_given_derivatives_give_the_coefficient_of_differences(names):
     assert names["l1"] == pytest.approx(plain, rel=1e-6)
 
 
+def test_a_sparse_matrix_and_an_operator_are_the_jacobian(names):
+    for own in (names["by_products"], names["thin"]):
+        own.check_derivatives([1.8, 2.1])
+    u, p = names["np"].array([1.8, 2.1]), {"A": 2.0, "B": 1.0}
+    dense, thin = (names[each].linearize(u, p, ()).jac for each in ("by_products", "thin"))
+    assert dense == pytest.approx(thin.toarray())
+
+
 def test_the_wrong_jacobian_is_told(names, capsys):
     (code,) = [code for _, code in BLOCKS if "wrong =" in code]
     exec(code, dict(names))  # noqa: S102

@@ -82,6 +82,7 @@ CASES = {
     "algebra.right_singular": lambda m: algebra.right_singular(np.full((m.n + 2, 2), FILLS[m.kind][0])),
     "bends.bend": lambda m: bends.bend(m.field.local, m.field.system, m.field.y, m.field.v, m.field.v, order=2),
     "bends.bends_itself": lambda m: bends.bends_itself(m.field.local),
+    "bends.reach_of": lambda m: bends.reach_of(m.field.local, math.nan * m.field.v),
     "bordered.null_pair": lambda m: bordered.null_pair(m.matrix.astype(complex)),
     "bordered.sparse_factors": lambda m: bordered.sparse_factors(m.matrix),
     "coloured.Coloured": lambda m: [found(m.field, part * m.field.sparse_jac) for part in (0.0, 1.0)],

@@ -24,7 +24,7 @@ def bends_itself(local: Local) -> bool:
     return not local.problem.second_order and (local.problem.own_jacobian or sparse.issparse(local.jac))
 
 
-def _reach(local: Local, along: Array) -> float:
+def reach_of(local: Local, along: Array) -> float:
     """Return the largest component of a scaled direction in units of its typical size."""
     return float(np.abs(along * local.problem.state_scale / local.problem.typical).max())
 
@@ -45,7 +45,7 @@ def bend(
     whole = np.zeros(n + system.k)
     whole[: len(along)] = along
     nodes, weights = _RULES[order] if step is None else _CENTRED
-    h = _STEP / max(_reach(local, along), 1e-300) if step is None else step
+    h = _STEP / max(reach_of(local, along), 1e-300) if step is None else step
     total = np.zeros((*left.shape[:-1], n + count), dtype=left.dtype)
     for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
         x, moved = system.move(local.x, y, node * h * whole)

@@ -28,16 +28,13 @@ def look(
     system: System, old: CurvePoint, new: CurvePoint, detectors: Sequence[Detector], settings: Settings
 ) -> Found | Refused:
     """Return the special points between two points of the curve in order, or why the step is to be shorter."""
-    known = CALM.get(new) is old
-    if known:
-        detectors = [d for d in detectors if not d.structural]
+    structural = any(d.structural for d in detectors)
+    if structural and (CALM.get(new) is old or calm(system, old, new, settings)):
+        detectors, structural = [d for d in detectors if not d.structural], False
         if not detectors:
             return Found()
-    structural = any(d.structural for d in detectors)
     located, neutral = list[Located](), list[Located]()
-    quiet = known or (structural and calm(system, old, new, settings))
-    whole = quiet or not structural
-    for piece in [Piece(old, new, quiet=quiet)] if whole else Balance(system, settings).pieces(old, new):
+    for piece in Balance(system, settings).pieces(old, new) if structural else [Piece(old, new)]:
         found = _inside(piece, detectors)
         if isinstance(found, Refused):
             return found
