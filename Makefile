@@ -44,7 +44,7 @@ test: env ## lint, rooms, types and tests
 	$(BIN)/mypy
 	$(BIN)/pytest -q -n auto --dist loadfile --no-loadscope-reorder
 
-test-slow: env ## tests of half a second or more
+test-slow: env ## tests of 0.4 s or more
 	$(BIN)/pytest -q -n auto --dist loadfile --no-loadscope-reorder -m "slow and not long and not shaken and not thirdparty and not browser"
 
 test-long: env ## the tests that take minutes
@@ -105,7 +105,7 @@ $(STAMP): pyproject.toml constraints.txt $(if $(FRESH),,FORCE)
 	said=$$("$(PYTHON)" -m venv $(VENV) 2>&1) || \
 	  fail "'$(PYTHON) -m venv' failed; on Debian and Ubuntu, the package python$$version-venv brings what it needs ($$(echo "$$said" | tail -n 1))"; \
 	echo "installing mjcont and its tools in $(VENV), with Python $$version"; \
-	$(BIN)/python -m pip install --quiet --no-input --disable-pip-version-check -c constraints.txt -e '.[dev]' || \
+	$(BIN)/python -m pip install --quiet --no-compile --no-input --disable-pip-version-check -c constraints.txt -e '.[dev]' || \
 	  fail "installing did not finish, and $(VENV) is removed: see pip's message above, then run make again"; \
 	$(STAMP_TEXT) >$(STAMP) && rm $(UNFINISHED)
 

@@ -94,6 +94,7 @@ def test_the_diagram_of_a_circle_and_a_line_has_both_curves_once():
     assert circle.status == "closed"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("row", [0, 1], ids=["line", "circle"])
 def test_each_curve_carries_every_crossing_once(row):
     points = diagram_of(circle_and_line, -2.0, 2.0)[row].of_kind("BP")
@@ -149,6 +150,7 @@ def test_starts_on_branches_that_nothing_connects_give_both():
     assert [b["x"][0] for b in diagram] == pytest.approx([-1.0, 1.0], rel=1e-10)
 
 
+@pytest.mark.slow
 def test_a_diagram_is_indexed_and_iterated_by_branch():
     diagram = diagram_of(pitchfork, -1.0, 1.0)
     assert [diagram[i] for i in range(len(diagram))] == list(diagram)
@@ -237,6 +239,7 @@ def test_an_unknown_keyframe_of_a_diagram_is_named():
         mc.bifurcation_diagram(pitchfork(), "mu", bounds=(-1.0, 1.0), keyframes=["up"])
 
 
+@pytest.mark.slow
 def test_user_zeros_are_located_on_every_branch_of_a_diagram():
     field = mc.VectorField(lambda u, p: [p["a"] * u[0] - u[0] ** 3], [0.0], {"a": -0.5})
     diagram = mc.bifurcation_diagram(field, "a", (-1.0, 1.0), zeros={"a": (-0.25, 0.25)})

@@ -87,6 +87,7 @@ def test_the_start_stays_marked_when_points_are_put_before_it():
     assert after.start == before.start
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("end", "bound"), [("first", 0.0), ("last", 0.6)])
 def test_only_the_end_that_is_named_is_extended(end, bound):
     branch = mc.extend(middle_of_ab(), ends=[end])
@@ -152,6 +153,7 @@ def test_a_branch_at_its_bounds_is_not_extended_without_wider_ones():
     assert found(branch) == found(branch_of_ab(18.0))
 
 
+@pytest.mark.slow
 def test_points_follow_each_other_without_a_gap_where_an_extension_begins():
     branch = mc.extend(middle_of_ab())
     steps = np.linalg.norm(np.diff(branch.states, axis=0), axis=1)
@@ -159,6 +161,7 @@ def test_points_follow_each_other_without_a_gap_where_an_extension_begins():
     assert steps.max() < 2.0 * np.linalg.norm(np.diff(branch_of_ab(18.0).states, axis=0), axis=1).max()
 
 
+@pytest.mark.slow
 def test_every_special_point_stands_in_its_row():
     branch = mc.extend(middle_of_ab())
     for p in branch.special_points:
@@ -166,6 +169,7 @@ def test_every_special_point_stands_in_its_row():
         assert branch["D"][p.index] == p["D"]
 
 
+@pytest.mark.slow
 def test_a_mechanism_s_branch_is_extended(overcentre, overcentre_branch):
     short = mc.continue_equilibria(overcentre, "F", bounds=(-50.0, 60.0), start={"F": 50.0}, max_points=8)
     assert_same_points(mc.extend(short), overcentre_branch())
@@ -178,6 +182,7 @@ def test_an_extended_branch_goes_on_looking_for_the_user_zeros_it_was_made_with(
     assert_same_points(mc.extend(short), whole)
 
 
+@pytest.mark.slow
 def test_an_interrupted_branch_is_extended_to_the_whole():
     def interrupt(count, special):
         if count == 20:
@@ -204,6 +209,7 @@ def test_a_branch_that_was_saved_and_loaded_is_extended_to_the_bit_like_the_orig
     assert found(one) == found(other)
 
 
+@pytest.mark.slow
 def test_a_mechanism_s_branch_that_was_saved_and_loaded_is_extended(tmp_path, overcentre, overcentre_branch):
     short = mc.continue_equilibria(overcentre, "F", bounds=(-50.0, 60.0), start={"F": 50.0}, max_points=8)
     loaded = mc.load(short.save(tmp_path / "short.h5"))

@@ -41,6 +41,7 @@ def rests(x, y=0.0):
     return np.sort(q[:-1][t[:-1] * t[1:] < 0] % (2.0 * np.pi))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("x", [1.4, 1.5, 1.6])
 @pytest.mark.parametrize("beside", ["", BALL])
 def test_each_pose_is_found_once_also_where_even_angles_are_poses(x, beside):

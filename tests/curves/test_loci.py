@@ -31,6 +31,7 @@ def test_the_fold_curve_of_ab_has_one_cusp_and_one_bogdanov_takens_point_and_not
     assert sorted(kinds(folds_of_ab())) == ["BT", "CP"]
 
 
+@pytest.mark.slow
 def test_the_cusp_of_ab_lies_where_its_closed_form_has_it():
     point = only(folds_of_ab(), "CP")
     found = [point["u"], point["B"], point["D"]]
@@ -75,6 +76,7 @@ def test_the_hopf_curve_of_ab_has_one_bogdanov_takens_and_one_generalised_hopf_p
     assert sorted(kinds(hopfs_of_ab())) == ["BT", "GH"]
 
 
+@pytest.mark.slow
 def test_the_bogdanov_takens_point_on_the_hopf_curve_is_that_on_the_fold_curve():
     point = only(hopfs_of_ab(), "BT")
     found = [point["u"], point["B"], point["D"]]
@@ -148,6 +150,7 @@ def test_the_hopf_curve_of_the_brusselator_is_1_plus_A_squared():
 # -- cusps ----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_fold_curve_of_the_cusp_normal_form_is_its_semicubical_parabola():
     branch = mc.continue_equilibria(cusp(), "mu", bounds=(-1.0, 1.0))
     locus = mc.continue_special(branch.point("LP1"), "la", bounds=(-1.0, 2.0))
@@ -163,6 +166,7 @@ def curve_of_cusps():
     return mc.continue_special(only(folds, "CP"), "e", bounds=(-2.0, 2.0))
 
 
+@pytest.mark.slow
 def test_cusps_in_three_parameters_follow_their_closed_form():
     locus = curve_of_cusps()
     assert locus["x"] == pytest.approx(locus["e"] / 3.0, abs=1e-8)
@@ -178,6 +182,7 @@ def test_cusps_in_three_parameters_are_followed_from_bound_to_bound():
 # -- Bogdanov-Takens and zero-Hopf points in three parameters --------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_bogdanov_takens_points_in_three_parameters_follow_their_closed_form():
     # x'' = b1 + b2 x + x^2 + (b3 + x) x': trace and determinant vanish at x = -b3, b2 = 2 b3, b1 = b3^2
     def f(u, p):
@@ -193,6 +198,7 @@ def test_bogdanov_takens_points_in_three_parameters_follow_their_closed_form():
     assert sorted(locus["b3"][[0, -1]]) == pytest.approx([-0.7, 0.9], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_zero_hopf_points_in_three_parameters_follow_their_closed_form():
     def f(u, p):
         growth = p["b2"] + u[0] + p["d"] * u[0] + p["d"] ** 2
@@ -210,6 +216,7 @@ def test_zero_hopf_points_in_three_parameters_follow_their_closed_form():
 # -- points at which a fold curve turns without a cusp ------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [1.0, -1.0], ids=["isola centre", "crossing"])
 def test_a_fold_curve_has_a_branch_point_where_its_first_parameter_does_not_move_the_equation(sign):
     branch = mc.continue_equilibria(conic(sign), "la", bounds=(-2.0, 2.0))
@@ -220,6 +227,7 @@ def test_a_fold_curve_has_a_branch_point_where_its_first_parameter_does_not_move
     assert "turns without a cusp" in point.note
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [1.0, -1.0], ids=["isola centre", "crossing"])
 def test_a_fold_curve_passes_its_branch_point(sign):
     branch = mc.continue_equilibria(conic(sign), "la", bounds=(-2.0, 2.0))

@@ -24,6 +24,7 @@ def test_user_zeros_on_a_locus_are_located_to_1e_10():
     assert [p["B"] for p in points] == pytest.approx([25.0], rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("direction", [1, -1])
 def test_a_locus_in_one_direction_first_moves_its_new_parameter_that_way(direction):
     point = branch_of_ab(18.0).point("LP1")

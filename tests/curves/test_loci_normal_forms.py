@@ -44,6 +44,7 @@ def test_a_generalised_hopf_point_beside_a_zero_hopf_point_is_found():
     assert [point["b1"], point["b2"]] == pytest.approx([-0.25, 0.5], rel=1e-8)
 
 
+@pytest.mark.slow
 def test_the_hopf_curve_of_the_zero_hopf_normal_form_follows_its_closed_form():
     locus = mc.continue_special(only(zero_hopf_branch(*FORMS[0]), "HB"), "b2", bounds=(-0.6, 0.6), lyapunov=False)
     assert locus["b1"] == pytest.approx(-locus["b2"] ** 2, abs=1e-8)
@@ -75,6 +76,7 @@ def test_a_double_hopf_point_is_found_on_both_hopf_curves_and_nothing_else(label
     assert [point["mu"], point["nu"]] == pytest.approx([1.0 - MEETING, MEETING], rel=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("label", "own", "other"), [("HB1", 0, 1), ("HB2", 1, 0)])
 def test_a_double_hopf_point_states_both_frequencies(label, own, other):
     locus = mc.continue_special(double_hopf_branch().point(label), "nu", bounds=(0.0, 1.0))

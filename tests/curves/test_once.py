@@ -8,6 +8,7 @@ from problems.curves import labels, scalar
 import mjcont as mc
 
 
+@pytest.mark.slow
 def test_a_fold_on_which_a_curve_starts_is_found_once():
     """u^2 = p at u = 0: the slope of the parameter there is zero to the last bit, or rounding of either sign."""
     for start in (0.0, 1e-18, -1e-18):

@@ -81,6 +81,7 @@ def test_fold_coefficient_is_half_the_second_derivative_of_the_force_along_the_n
     assert found.coefficients["a"] == pytest.approx(-0.5 * slope, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_folds_do_not_depend_on_the_spring_damper(overcentre_branch):
     light, heavy = overcentre_branch(c_sp=0.01), overcentre_branch(c_sp=10.0)
     for a, b in zip(light.of_kind("LP"), heavy.of_kind("LP"), strict=True):

@@ -373,6 +373,7 @@ def test_bratu_with_1000_points_lies_near_its_limit():
     assert fold["largest"] == pytest.approx(1.18684216863439, rel=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", BRATU_FOLDS)
 def test_bratu_is_stable_up_to_the_fold_and_has_one_unstable_mode_beyond(n):
     branch = branch_of_bratu(n)

@@ -64,6 +64,7 @@ def test_durations_that_are_no_hundredths_of_a_second_add_up(history, tmp_path):
     assert set(durations) == {30, 40} and sum(durations) == 1000
 
 
+@pytest.mark.slow
 def test_the_mechanism_moves_and_the_point_goes_to_the_right(history, tmp_path):
     frames, _ = _read(mc.animate(history, tmp_path / "a.gif", seconds=0.5, **SMALL))
     assert np.abs(frames[0][:, :80] - frames[-1][:, :80]).max() > 100
@@ -159,6 +160,7 @@ def test_results_without_poses_are_refused(history, tmp_path):
         mc.animate(replace(history, columns=first, states=history.states[:1]), tmp_path / "a.gif")
 
 
+@pytest.mark.slow
 def test_an_interrupt_leaves_the_old_file_and_no_other(history, tmp_path):
     out = tmp_path / "a.gif"
     out.write_bytes(b"old")

@@ -95,6 +95,7 @@ def test_a_label_of_ones_own_has_the_numbers_that_were_drawn():
     assert 4e5 in numbers(ax.get_xticklabels())
 
 
+@pytest.mark.slow
 def test_a_label_goes_with_its_numbers_when_the_scale_is_changed_afterwards():
     ax = drawn([1e2, 1e8], [0.0, 1.0], ("k_j", "N/m"), ("y", ""))
     assert ax.get_xlabel().endswith("[MN/m]")

@@ -260,6 +260,7 @@ def test_labels_do_not_overlap_and_stay_inside(model, keyframe):
         assert not any(np.all(low < other[1]) and np.all(other[0] < high) for other in boxes[:i])
 
 
+@pytest.mark.slow
 def test_everything_is_named_unless_told_otherwise(overcentre):
     assert sorted(names(draw(overcentre))) == ["A", "B", "C", "F", "link 1", "link 2", "spring"]
     assert names(draw(overcentre, labels=False)) == []
@@ -273,6 +274,7 @@ def test_an_unknown_kind_of_label_says_which_there_are(overcentre):
         draw(overcentre, labels=("pin",))
 
 
+@pytest.mark.slow
 def test_a_pose_that_is_none_is_refused(overcentre, overcentre_branch):
     with pytest.raises(mc.NameLookupError, match="unknown keyframe 'up'"):
         draw(overcentre, "up")
@@ -290,6 +292,7 @@ def test_lengths_are_true_and_axes_are_hidden(overcentre):
     assert not ax.axison
 
 
+@pytest.mark.slow
 def test_a_second_pose_in_one_colour_joins_the_first(overcentre, fold):
     ax = draw(overcentre, color="0.8", labels=False)
     assert not any(line.get_label() == "_force" for line in ax.lines)

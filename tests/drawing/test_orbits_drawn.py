@@ -42,6 +42,7 @@ def test_a_fold_is_marked_on_both_envelopes_and_named_once():
     assert texts(ax) == ["LPC1"]
 
 
+@pytest.mark.slow
 def test_curves_of_different_kinds_are_named_by_them():
     ax = mc.plot(*circles(), x="b1", y="u[0]")
     assert [t.get_text() for t in ax.get_legend().get_texts()] == ["equilibria", "cycles"]

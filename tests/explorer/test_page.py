@@ -98,6 +98,7 @@ def run_elsewhere(document, folder):
     return mc.run_study(mc.load_study(folder / "study.toml"), folder / "out")
 
 
+@pytest.mark.slow
 def test_a_page_hands_out_the_model_that_its_study_names_and_the_zeros_that_were_asked_for(tmp_path):
     text = mc.Mechanism.from_xml("overcentre").mjcf.replace('model="overcentre"', 'model="mine"')
     branch = mc.continue_equilibria(mc.Mechanism.from_xml(text), "F", bounds=(-50, 50), start={"F": 50, "k_j": 1e3},

@@ -69,6 +69,7 @@ def unstable_row(session):
 # -- what is opened -------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_model_opens_with_a_branch_of_the_parameter_that_moves_it():
     session = Session(opened("overcentre"), lambda event: None)
     session.begin()
@@ -119,6 +120,7 @@ def test_a_result_that_no_table_computes_is_shown_and_asked_on_from_its_rows(tmp
     assert [*session.now.results] == ["result", "equilibria"]
 
 
+@pytest.mark.slow
 def test_what_a_model_warns_of_is_a_note_said_once(tmp_path):
     (tmp_path / "bare.xml").write_text("""<mujoco model="bare"><asset><mesh name="m" file="missing.stl"/></asset>
         <worldbody><body><joint name="z" axis="0 1 0" stiffness="10"/><geom size="0.1" pos="1 0 0"/>
@@ -153,6 +155,7 @@ def test_a_study_with_a_mistake_is_refused_with_its_first_problem(study):
 # -- what a click appends -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_study_of_a_session_reproduces_what_was_clicked(session, tmp_path):
     session.add("loci", {"point": "rest:LP1", "parameter": "k_sp", "bounds": [0.5, 12]})
     session.add("branch", {"row": row("rest", 5), "parameter": "k_sp", "bounds": [5, 15]})
@@ -188,6 +191,7 @@ def test_a_nudge_of_either_sign_leaves_to_its_own_side(session, sign):
     assert (history["theta_1"][-1] - began) * (other["theta_1"][-1] - began) < 0
 
 
+@pytest.mark.slow
 def test_a_load_begins_to_change_where_the_row_has_it_and_jumps_at_the_fold(session):
     branch = session.now.results["rest"]
     first = next(i for i in (0, len(branch) - 1) if branch["theta_1"][i] < 0)  # the lower of the two ends
@@ -202,12 +206,14 @@ def test_a_load_does_not_begin_at_an_unstable_row(session):
         session.add("paths", {"row": row("rest", unstable_row(session)), "parameter": "F", "values": [50]})
 
 
+@pytest.mark.slow
 def test_a_load_that_begins_at_a_fold_begins_at_the_stable_row_beside_it(session):
     fold = session.now.results["rest"].special_points[0]
     (path,) = session.add("paths", {"row": row("rest", fold.index), "parameter": "F", "values": [50]}).values()
     assert path.done
 
 
+@pytest.mark.slow
 def test_results_are_named_after_what_they_are_and_counted(session):
     for value in (8, 9):
         session.add("loci", {"point": "rest:LP1", "parameter": "k_sp", "bounds": [value, 12]})
@@ -258,6 +264,7 @@ def test_undo_drops_the_last_click(session):
     assert session.events[-1]["can_undo"] is False
 
 
+@pytest.mark.slow
 def test_a_slider_computes_everything_at_another_value(session, overcentre_branch):
     session.add("sensitivities", {"point": "rest:LP1"})
     session.set("k_sp", 12.0)
@@ -267,6 +274,7 @@ def test_a_slider_computes_everything_at_another_value(session, overcentre_branc
     assert session.now.tables["parameters"]["k_sp"] == 12.0
 
 
+@pytest.mark.slow
 def test_a_slider_that_goes_on_is_one_click(session):
     before = session.now
     for value in (11.0, 12.0, 13.0):
@@ -302,6 +310,7 @@ def test_stopping_keeps_the_points_so_far(session):
     assert "# equilibria was stopped; here it is computed whole." in session.toml()
 
 
+@pytest.mark.slow
 def test_what_runs_tells_its_points_with_their_observables(session):
     told = []
     session._tell = told.append
@@ -316,6 +325,7 @@ def test_what_runs_tells_its_points_with_their_observables(session):
     assert {e["what"].partition(":")[0].split(", ")[-1] for e in told if e["event"] == "progress"} == {"locus"}
 
 
+@pytest.mark.slow
 def test_while_something_runs_others_get_a_word_in(begun):
     words = []
     session = Session(begun, lambda event: None, between=lambda: words.append("word"))

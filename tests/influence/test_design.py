@@ -194,6 +194,7 @@ def root_of_the_energies(stiffness, force, angle):
     return root(missing, rigid, tol=1e-13).x
 
 
+@pytest.mark.slow
 def test_a_spring_puts_the_upper_fold_at_14_newtons_and_30_degrees():
     found = mc.design(overcentre_folds(1e6), SPRING, ["LP2.F == 14 N", "LP2.theta_1 == 30 deg"])
     assert found.status == "met"
@@ -221,6 +222,7 @@ def test_folds_whose_mean_is_not_the_weight_exclude_each_other():
     assert upper == pytest.approx(best, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_length_in_the_spec_is_designed_and_written(tmp_path):
     """A rod on a spring leans where k hip = n m g (l / 2) sin(hip), its mass that of a capsule of its length."""
     text = """<mujoco><worldbody><!-- a rod --><body name="rod">

@@ -78,6 +78,7 @@ def test_a_fold_never_jumps_to_the_one_beside_it():
         assert found.point["x"] == pytest.approx(x, rel=1e-8)
 
 
+@pytest.mark.slow
 def test_folds_that_meet_cease_to_exist_where_they_do_with_a_sentence():
     found = mc.follow_point(wave_fold(), {"p": 1.5})
     assert not found.reached
@@ -94,6 +95,7 @@ def test_cusps_that_annihilate_cease_to_exist_where_they_do():
     assert found.path[-1]["p"] >= 0.0
 
 
+@pytest.mark.slow
 def test_a_cusp_is_followed_to_where_its_closed_form_has_it():
     found = mc.follow_point(swallowtail(), {"p": 3.0})
     x = math.sqrt(0.5)  # mu = -2 p x + 4 x^3
@@ -101,6 +103,7 @@ def test_a_cusp_is_followed_to_where_its_closed_form_has_it():
     assert found.point["mu"] == pytest.approx(-6.0 * x + 4.0 * x**3, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_hopf_point_is_followed_with_its_frequency():
     def f(u, p):
         return [p["A"] - (p["B"] + 1.0) * u[0] + u[0] ** 2 * u[1], p["B"] * u[0] - u[0] ** 2 * u[1]]
@@ -112,6 +115,7 @@ def test_a_hopf_point_is_followed_with_its_frequency():
     assert found.coefficients["omega"] == pytest.approx(1.0, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_branch_point_that_breaks_is_a_status():
     truss = mc.Mechanism.from_xml("von_mises_truss")
     branch = mc.continue_equilibria(truss, "P", bounds=(-2000.0, 2000.0), start={"a": 0.35}, keyframe="steep")
@@ -135,6 +139,7 @@ def test_mistakes_of_following_name_the_valid_choices():
 # -- maps -------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_map_has_the_closed_form_at_every_node():
     p, q = np.linspace(-1.0, 1.0, 5), np.linspace(-0.5, 0.5, 4)
     found = mc.special_map(hill_fold(), {"p": p, "q": q})
@@ -143,6 +148,7 @@ def test_a_map_has_the_closed_form_at_every_node():
     assert found.exists.all()
 
 
+@pytest.mark.slow
 def test_a_map_is_empty_where_the_point_has_ceased_to_exist():
     found = mc.special_map(swallowtail(), {"p": [-0.4, -0.2, 0.2, 0.4, 1.0]})
     assert found.exists.tolist() == [False, False, True, True, True]

@@ -112,6 +112,7 @@ def test_a_tendon_round_a_cylinder_has_the_length_of_tangents_and_arc():
     assert found == pytest.approx([wrapped_length(q) for q in angles], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_wrapped_spring_holds_the_rod_with_the_drums_radius_as_lever():
     branch = mc.continue_equilibria(rod_with_wrapped_spring(50.0), "M", bounds=(0.2, 4), start={"M": 1.5}, state=[1.9])
     wrapped = branch["q"] > 2 * math.acos(RADIUS) - math.pi / 2
@@ -126,6 +127,7 @@ def test_a_wrapped_spring_holds_the_rod_with_the_drums_radius_as_lever():
 # -- several turns, and starts -------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_branch_winds_through_several_turns():
     """A torsion spring of 0.5 N m/rad wound up by its control: k (u - q) + m g l sin q = 0 for |q| up to 4 turns."""
     mechanism = rod('damping="1"', '<position name="u" joint="q" kp="0.5"/>')

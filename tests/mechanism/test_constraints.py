@@ -25,6 +25,7 @@ def test_a_stop_engages_where_the_closed_form_has_it():
     assert branch.status == "at bound"
 
 
+@pytest.mark.slow
 def test_a_stop_is_as_stiff_as_mujoco_makes_it():
     mechanism = pendulum_with_stops(0.5)
     (point,) = mc.continue_equilibria(mechanism, "M", bounds=(-5.0, 5.0)).at(M=4.0)
@@ -33,6 +34,7 @@ def test_a_stop_is_as_stiff_as_mujoco_makes_it():
     assert 4.0 - moment(point["q"], 0.5) == pytest.approx(stop * (point["q"] - UPPER), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_branch_that_turns_back_as_a_stop_engages_is_a_non_smooth_fold():
     branch = mc.continue_equilibria(pendulum_with_stops(2.0), "M", bounds=(-3.0, 3.0))
     upper = branch.of_kind("CO")[-1] if branch["q"][-1] > 0 else branch.of_kind("CO")[0]

@@ -310,6 +310,7 @@ def test_a_branch_unlatched_is_that_of_a_model_without_the_latch():
     assert branch["b"] == pytest.approx(np.full(len(branch), -WEIGHT / 300), abs=1e-10)
 
 
+@pytest.mark.slow
 def test_opening_the_latch_lets_the_sliders_part_in_time():
     mechanism = latched()
     start = mc.find_equilibrium(mechanism, {"equality:latch.active": 1})

@@ -266,6 +266,7 @@ def test_a_state_of_the_wrong_size_is_an_error(overcentre):
         overcentre.start_state(state=[1.0, 2.0])
 
 
+@pytest.mark.slow
 def test_a_start_that_flows_to_no_equilibrium_is_an_error():
     falling = mc.Mechanism.from_xml(
         '<mujoco><worldbody><body><joint type="slide" axis="0 0 1"/><inertial pos="0 0 0" mass="1" '

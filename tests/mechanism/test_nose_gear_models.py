@@ -66,6 +66,7 @@ def full():
 # -- forces ----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_forces_at_rest_are_those_of_the_independent_model(gear, by_hand):
     for q, p, _ in random_cases(gear, 50):
         assert_equal_to(gear.residual(q, p), by_hand.forces_at_rest(q, p), 1e-12)

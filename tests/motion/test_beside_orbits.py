@@ -63,6 +63,7 @@ def test_a_motion_on_an_orbit_stays_on_it():
     assert history["q1"] == pytest.approx(expected, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_a_motion_on_a_response_of_a_field_keeps_its_forcing():
     orbit = resonance()[0].orbit
     history = mc.simulate(orbit, duration=5.5 * orbit.period, samples=12)
@@ -88,6 +89,7 @@ def test_an_orbit_says_where_its_motion_begins():
 # -- stability held against motions ---------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_motions_beside_cycles_grow_and_shrink_as_multipliers_say():
     cycles = circles()[1]
     certificate = mc.verify_stability(cycles, n=6).certificate

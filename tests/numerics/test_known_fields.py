@@ -137,6 +137,7 @@ def test_a_linear_field_has_no_generalised_hopf_points():
 # -- diagrams -----------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slope", [0.5, 2.0, 5.0])
 def test_a_diagram_has_both_of_two_steep_lines_that_cross_at_a_small_angle(slope):
     one, other = slope / 6.0, math.tan(math.atan(slope) - math.radians(2.0)) / 6.0

@@ -177,6 +177,7 @@ def test_the_limit_of_points_counts_those_inside_steps(most):
     assert len(branch) - len(branch.special_points) == most
 
 
+@pytest.mark.slow
 def test_the_iterator_yields_the_points_of_the_branch():
     mechanism = mc.Mechanism.from_xml("overcentre")
     branch = mc.continue_equilibria(mechanism, "F", BOUNDS, {"F": START}, direction=-1, chord=math.inf)

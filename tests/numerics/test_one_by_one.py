@@ -85,6 +85,7 @@ def test_the_walk_without_long_steps_is_exactly_the_plain_one_and_the_filled_one
     assert all(np.array_equal(a.x, b.x) and np.array_equal(a.y, b.y) for a, b in zip(by_hand, walked, strict=True))
 
 
+@pytest.mark.slow
 def test_what_a_monitor_says_of_a_step_does_not_depend_on_what_it_was_asked_before():
     system = circle()
     stepper = equilibrium_walker(system, Settings(), {"u[0]": 0.5}).stepper

@@ -26,6 +26,7 @@ def test_an_isola_closes_on_itself_and_says_so(radius):
     assert branch.message == "the curve closes on itself"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("radius", [1.0, 0.1, 1e-3])
 def test_an_isola_is_followed_exactly_once(radius):
     branch = circle_branch(radius)

@@ -62,6 +62,7 @@ def test_a_force_through_a_filter_moves_a_mass_as_two_linear_systems_in_series_d
     assert response()["x.mean"] == pytest.approx(np.full(len(x), GAIN * MEAN / STIFFNESS), rel=1e-8)
 
 
+@pytest.mark.slow
 def test_activations_along_an_orbit_are_those_of_the_filter():
     orbit = response()[0].orbit
     assert orbit.activations[:, 0] == pytest.approx(MEAN + (lagging(orbit.frequency) * turned(orbit)).real, abs=1e-8)

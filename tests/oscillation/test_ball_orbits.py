@@ -40,6 +40,7 @@ def test_a_rod_on_a_ball_joint_swings_in_a_plane_as_one_on_a_hinge_does():
     assert ball.orbit.rate("tip[0]", times) == pytest.approx(hinge.orbit.rate("tip[0]", times), abs=1e-7)
 
 
+@pytest.mark.slow
 def test_states_are_unit_quaternions_and_velocities_those_of_the_hinge():
     ball, hinge = swung(True).orbit, swung(False).orbit
     angle = np.interp(0.3, hinge.times, hinge.states[:, 0])

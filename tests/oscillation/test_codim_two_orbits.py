@@ -77,6 +77,7 @@ def test_tori_end_at_a_double_multiplier_minus_one(forced):
     assert "R2" in dict(curve.ends)["at special point"]
 
 
+@pytest.mark.slow
 def test_tori_near_a_double_multiplier_minus_one_come_to_their_end():
     """Their equations are regular there: few steps lead to it."""
     field = around(codimtwo.double_minus_one, 2, {"p": -0.004, "q": -0.005}, [0.0, 0.0], forced=True, turn=0.5)

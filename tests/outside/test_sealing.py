@@ -99,6 +99,7 @@ def old(saved: Path) -> Path:
     return saved
 
 
+@pytest.mark.slow
 def test_an_older_file_loads_with_a_note(branch: mc.Branch, old: Path) -> None:
     with pytest.warns(UserWarning, match="branch.h5' has no checksums .an older mjcont wrote it"):
         loaded = mc.load(old)

@@ -55,6 +55,7 @@ def test_fp1_equals_the_reference(case):
     assert degrees_of(fold, "theta_1") == pytest.approx(-59.556420, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_fp1_under_500_newton_equals_the_reference(case):
     fold = case(1.0, 0.0).unlocked
     assert fold["F_ul"] == pytest.approx(-500.0, abs=1e-9)
@@ -136,6 +137,7 @@ def test_spread_of_the_cusps(cusps, name, load_factor, share):
     assert _loci.spread(cusps(name, load_factor)) == pytest.approx(share, abs=5e-4)
 
 
+@pytest.mark.slow
 def test_high_load_needs_less_unlock_force_but_in_steep_descent(cusps):
     ratio = cusps("F_ul", 2.5) / cusps("F_ul", 0.5)
     assert ratio[0] == pytest.approx(1.0, abs=0.01)

@@ -190,6 +190,7 @@ def test_the_unlock_force_without_retraction_force_is_that_of_the_balance_at_the
     assert opens.note.endswith("F_ul turns back: a non-smooth fold")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("f_ul", "kind"), [(-100.0, "LP"), (-500.0, "CO")])
 def test_weak_unlock_forces_open_the_lock_at_a_fold_strong_ones_at_the_corner(stopped, along, f_ul, kind):
     branch = along("F_ret", 0.0, 8e5, F_ul=f_ul)

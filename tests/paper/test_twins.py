@@ -52,6 +52,7 @@ def test_pages_of_a_study_whose_name_begins_alike_are_not_its_own(tmp_path):
     assert twins(tmp_path, "locking") == ("locking.html",)
 
 
+@pytest.mark.slow
 def test_the_report_links_a_twin_and_draws_a_figure_again_whose_twin_is_gone(scripts, here, tmp_path):
     out = tmp_path / "out"
     report = reproduce([1], out, say=quiet).report

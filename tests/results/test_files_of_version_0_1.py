@@ -31,6 +31,7 @@ def test_a_branch_of_a_vector_field_holds_points_that_satisfy_its_equations():
     assert [p.label for p in branch.special_points] == ["HB1", "LP1", "LP2", "HB2"]
 
 
+@pytest.mark.slow
 def test_a_hopf_locus_of_a_vector_field_holds_points_of_trace_zero():
     locus = old("vector_field_hopf_locus.h5")
     u, v = locus.states.T

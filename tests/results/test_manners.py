@@ -151,6 +151,7 @@ def test_arrays_have_dimensions_and_units(results: dict[str, Any]) -> None:
     assert results["transfer"].to_xarray()["z"].dims == ("frequency",)
 
 
+@pytest.mark.slow
 def test_barriers_over_two_parameters_are_an_array_and_a_table(tmp_path: Any) -> None:
     pytest.importorskip("xarray")
     energy = np.array([[1.0, 2.0, np.inf], [3.0, np.nan, 4.0]])

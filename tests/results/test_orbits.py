@@ -79,6 +79,7 @@ def test_columns_of_circles_are_those_of_a_circle():
     assert cycles["period"] * cycles["frequency"] == pytest.approx(np.ones(len(r2)))
 
 
+@pytest.mark.slow
 def test_the_first_harmonic_of_a_response_is_that_of_the_linear_oscillator():
     curve = resonance()
     w = curve["w"]

@@ -272,6 +272,7 @@ def test_a_file_cut_short_is_an_error(saved, part):
         mc.load(saved)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["states", "stability", "columns/F", "eigenvalues/real", "special_points", "fixed"]
 )

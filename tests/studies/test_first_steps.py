@@ -58,12 +58,14 @@ def test_an_own_file_gives_a_labelled_diagram_in_three_commands(models, tmp_path
     assert mc.load("out/equilibria.h5").of_kind("LP")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["von_mises_truss", "ziegler_rods"])
 def test_first_studies_have_nothing_wrong(tmp_path, name, capsys):
     assert main(["init", name, "-o", str(tmp_path / "study.toml")]) == 0
     assert load_study(tmp_path / "study.toml").branches
 
 
+@pytest.mark.slow
 def test_a_suggestion_becomes_true_by_taking_its_mark_away(tmp_path, capsys):
     path = tmp_path / "study.toml"
     assert main(["init", "overcentre", "-o", str(path)]) == 0
@@ -145,6 +147,7 @@ def test_an_answer_tells_value_margin_worst_case_influence_and_simulation(tmp_pa
         assert words in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("where", ["answer", "sensitivities"])
 def test_an_answer_takes_the_tolerances_that_the_study_gives(tmp_path, capsys, where):
     text = ANSWER.replace("worst = { k_sp = [9, 11] }\nsimulations = 2", "simulations = 0")
