@@ -107,6 +107,7 @@ def test_rows_of_a_mechanisms_locus_are_folds_at_rest():
         assert np.abs(row).min() < 1e-4 * np.abs(row).max()
 
 
+@pytest.mark.slow
 def test_rows_between_cost_few_evaluations():
     costs, counts = [], []
     for chord in (math.inf, 3e-6):
@@ -118,6 +119,7 @@ def test_rows_between_cost_few_evaluations():
     assert costs[1] - costs[0] < 3.5 * (counts[1] - counts[0])
 
 
+@pytest.mark.slow
 def test_a_curve_in_a_parameter_that_is_no_control_has_its_points_alone():
     mechanism = mc.Mechanism.from_xml("overcentre")
     branch = mc.continue_equilibria(mechanism, "F", (-50.0, 50.0), {"F": 50.0})
@@ -125,6 +127,7 @@ def test_a_curve_in_a_parameter_that_is_no_control_has_its_points_alone():
     assert len(found[0]) == len(found[1])
 
 
+@pytest.mark.slow
 def test_the_table_of_a_locus_has_every_row(tmp_path):
     locus = locus_of_ab("LP")
     with locus.to_csv(tmp_path / "locus.csv").open() as file:

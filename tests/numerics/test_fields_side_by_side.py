@@ -50,6 +50,7 @@ def test_many_random_fields_together_have_the_points_and_the_stability_that_they
     assert {seed: found for seed in range(first, first + 20) if (found := run(seed, together=True))} == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("vectorized", [False, True])
 def test_a_curve_ends_where_its_function_does_whatever_is_evaluated_together(vectorized):
     """u = sqrt(1 - p) and its square: f has no value beyond p = 1, nor derivatives a difference step before it."""
