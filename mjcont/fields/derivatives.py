@@ -20,7 +20,7 @@ from mjcont.fields.functions import raised
 from mjcont.fields.parameters import Arrays
 from mjcont.numerics.equations.problem import Array, Matrix
 
-# unknowns up to which an operator is made into a dense matrix
+# unknowns up to which an operator, or one without a value, is made into a dense matrix
 _MOST_PRODUCTS = 2000
 _FORMS = {2: "second", 3: "third"}
 
@@ -76,8 +76,9 @@ class Derivatives:
         """Return df/du, (n, n), dense or scipy.sparse; an operator by its n products."""
         found = self._called("jacobian", x, p)
         square = (self.n, self.n)
-        if found is None:
-            return np.full(square, np.nan)
+        if found is None:  # of many unknowns the diagonal says as much
+            many = self.n > _MOST_PRODUCTS
+            return sparse.diags(np.full(self.n, np.nan), format="csc") if many else np.full(square, np.nan)
         if sparse.issparse(found):
             if found.shape != square:
                 raise self._misshapen("jacobian", found.shape, square)

@@ -186,6 +186,16 @@ def test_a_pitchfork_of_a_sparse_field_is_found_with_its_coefficient():
     assert found.coefficients["c"] == pytest.approx(-2.0, rel=1e-6)
 
 
+def test_a_jacobian_that_leaves_its_domain_takes_no_square_of_memory():
+    line = chain(5000)
+
+    def jacobian(u, p):
+        return line * math.sqrt(0.5 - p["p"])
+
+    field = mc.VectorField(lambda u, p: line @ u + p["p"], np.zeros(5000), {"p": 0.0}, jacobian=jacobian)
+    assert field.linearize(np.zeros(5000), {"p": 1.0}, ()).jac.nnz == 5000
+
+
 def large_diffusion(n):
     line = chain(n)
     return mc.VectorField(lambda u, p: line @ u + p["p"], np.zeros(n), {"p": 0.0}, jacobian=lambda u, p: line)

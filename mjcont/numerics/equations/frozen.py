@@ -183,7 +183,7 @@ def _bend(local: Local, system: System, y: Array, v: Array) -> Array | None:
     one would leave its bounds.
     """
     n, scale, typical = system.n, system.problem.state_scale, system.problem.typical
-    h = _MIXED / (reach_of(local, v) or 1.0)
+    h = _MIXED / (max(reach_of(local, v[:n]), abs(float(v[n]))) or 1.0)
     unit, along = np.eye(system.k), h * v[:n] * scale
     ahead = h * v[n] * unit[0]
     sides = [system.gradient_step(i, y) * unit[i] for i in range(len(system.free))]

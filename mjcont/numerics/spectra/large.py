@@ -114,6 +114,7 @@ def _of_part(jac: Any, noise: float) -> tuple[Array, bool]:
 
 def _parts(jac: Any) -> Iterator[Any]:
     """Yield the diagonal blocks of a matrix whose parts act on later ones only, those of one unknown as one block."""
+    jac = jac.copy()
     jac.eliminate_zeros()
     count, labels = connected_components(jac, directed=True, connection="strong")
     if count == 1:
@@ -276,6 +277,7 @@ def positive_count(matrix: Any) -> int | None:
     return None if told is None else told[1]
 
 
+@np.errstate(all="ignore")
 def _balanced(jac: Any) -> Any:
     """Return D J D^-1, D diagonal, with rows about as large as columns: nearer to its symmetric part.
 
