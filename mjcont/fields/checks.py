@@ -42,8 +42,16 @@ def off(own: Array, ray: Ray, order: int, h: float) -> tuple[int, float, float] 
     """Return the entry of a derivative (n,) that is most off, its value and that by differences; None if none is.
 
     `ray` gives f(t), (m, n), whose derivative of that order at 0 is meant; `h` is the largest step in t. Where f has no
-    value nothing is off.
+    value, or the user's function raises so far aside, nothing is off.
     """
+    try:
+        with np.errstate(all="ignore"):
+            return _off(own, ray, order, h)
+    except FunctionError:
+        return None
+
+
+def _off(own: Array, ray: Ray, order: int, h: float) -> tuple[int, float, float] | None:
     tried, still = list[_Tried](), np.ones(len(own), dtype=bool)
     for step in _STEPS:
         now = _tried(ray, order, np.float64(h * step))

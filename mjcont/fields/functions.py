@@ -207,7 +207,11 @@ class Evaluated:
     def _compare(self, x: Array, values: Mapping[str, Any], times: float | Array) -> None:
         """Raise a FunctionError if a function that is said to be vectorized is not."""
         states, own = beside(x, self.scale), {k: _entry(v, 0) for k, v in values.items()}
-        single = np.array([self.rate(u, own, _entry(times, 0)) for u in states])
+        try:
+            single = np.array([self.rate(u, own, _entry(times, 0)) for u in states])
+        except FunctionError:  # it may refuse states that are not asked for
+            states = np.tile(x, (len(states), 1))
+            single = np.array([self.rate(u, own, _entry(times, 0)) for u in states])
         many = {k: np.full(len(states), v) for k, v in own.items()}
         check_columns(f"the function of {self.owner}", self._columns(states, many, _entry(times, 0)), single)
 

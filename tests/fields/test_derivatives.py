@@ -276,6 +276,16 @@ def test_an_entry_that_the_first_point_does_not_show_is_found_by_the_whole_check
         own.check_derivatives([0.25])
 
 
+def test_a_function_that_refuses_states_beside_the_curve_is_left_in_peace():
+    def wary(u, p):
+        if u[0] < 0.0:
+            raise RuntimeError("no such amount")
+        return [p["a"] - u[0]]
+
+    own = mc.VectorField(wary, [1e-3], {"a": 1e-3}, jacobian=lambda u, p: [[-1.0]])
+    own.linearize(np.array([1e-3]), own.values(), ())
+
+
 @pytest.mark.parametrize(
     ("f", "jacobian", "u"),
     [

@@ -115,6 +115,16 @@ def test_states_as_rows_are_found_out_where_their_number_is_that_of_the_unknowns
         own.residuals(np.zeros(3), own.values(), np.eye(3))
 
 
+def test_a_function_that_refuses_states_beside_those_asked_for_is_left_in_peace():
+    def wary(u, p):
+        if np.any(u < 0.0):
+            raise RuntimeError("no such amount")
+        return p["D"] - u
+
+    own = mc.VectorField(wary, [1e-3], {"D": 1e-3}, vectorized=True)
+    assert own.residuals(np.array([1e-3]), own.values(), np.array([[0.0], [1e-3]]))[:, 0].tolist() == [0.0, -1e-3]
+
+
 def test_a_wrong_kind_of_answer_is_refused():
     with pytest.raises(mc.ParameterError, match="vectorized must be True or False, got the str 'yes'"):
         field(vectorized="yes")
