@@ -68,12 +68,11 @@ def flutter(count):
     return point, mechanism.evaluations
 
 
-@pytest.mark.parametrize("count", [3, 5, pytest.param(20, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [3, 5, 20])
 def test_the_column_flutters_where_its_linear_equations_do(count):
-    assert flutter(count)[0]["P"] == pytest.approx(flutter_load(count), rel=1e-11)
+    assert flutter(count)[0]["P"] == pytest.approx(flutter_load(count), rel=1e-10)
 
 
-@pytest.mark.slow
 def test_the_column_of_20_links_flutters_at_its_known_load():
     assert flutter(20)[0]["P"] == pytest.approx(10.4267900834, abs=6e-11)
 

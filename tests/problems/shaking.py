@@ -27,9 +27,11 @@ import pytest
 import scipy.linalg
 from scipy import sparse
 from scipy.linalg import lapack
+from scipy.sparse.linalg import LinearOperator
 
 from mjcont.mechanism.batches import ConstrainedRows, Rows
 from mjcont.mechanism.evaluation import Evaluator
+from mjcont.mechanism.large.stages import Stages
 from mjcont.models import states
 from mjcont.numerics.equations import bordered
 from mjcont.numerics.spectra import large
@@ -97,7 +99,7 @@ def _shake_mechanisms(patch: pytest.MonkeyPatch, noise: Noise) -> None:
 
     forward, single = Rows.forward, Evaluator._single
     inverse, accelerations = ConstrainedRows.forward, ConstrainedRows.accelerations
-    position, acceleration = Evaluator.position, Rows.acceleration
+    position, acceleration, stages = Evaluator.position, Rows.acceleration, Stages.forces
 
     def shaken_forward(self: Rows, qpos: Array, *rest: Any, **named: Any) -> Array:
         terms = [self.field(n) for n in ("qfrc_passive", "qfrc_actuator", "qfrc_bias")]
@@ -111,6 +113,10 @@ def _shake_mechanisms(patch: pytest.MonkeyPatch, noise: Noise) -> None:
         found, d = inverse(self, moved(self._model, qpos), *rest, **named), self._data
         return rounded(found, d.qfrc_passive, d.qfrc_actuator, d.qfrc_bias, d.qfrc_constraint)
 
+    def shaken_stages(self: Stages, qpos: Array, *rest: Any, **named: Any) -> Array:
+        found, d = stages(self, moved(self._model, qpos), *rest, **named), self._data
+        return rounded(found, d.qfrc_passive, d.qfrc_actuator, d.qfrc_bias)
+
     def shaken_accelerations(self: ConstrainedRows, qpos: Array, *rest: Any) -> Array:
         return noise.off(accelerations(self, moved(self._model, qpos), *rest))
 
@@ -119,6 +125,7 @@ def _shake_mechanisms(patch: pytest.MonkeyPatch, noise: Noise) -> None:
     patch.setattr(Evaluator, "_single", shaken_single)
     patch.setattr(Evaluator, "position", lambda self, x: position(self, moved(self.model, x)))
     patch.setattr(ConstrainedRows, "forward", shaken_inverse)
+    patch.setattr(Stages, "forces", shaken_stages)
     patch.setattr(ConstrainedRows, "accelerations", shaken_accelerations)
 
 
@@ -186,7 +193,8 @@ def _asked_by_the_numerics(frame: Any) -> bool:
 def _shake_solvers(patch: pytest.MonkeyPatch, noise: Noise) -> None:
     def wrapped(solver: Callable[..., Any], off: Callable[[Noise, Array], Array]) -> Callable[..., Any]:
         def shaken_solver(matrix: Any, *rest: Any, **named: Any) -> Any:
-            if _asked_by_the_numerics(sys._getframe(1)):
+            # an operator solves with factors of a matrix that was shaken
+            if _asked_by_the_numerics(sys._getframe(1)) and not isinstance(matrix, LinearOperator):
                 matrix = off(noise, matrix if sparse.issparse(matrix) else np.asarray(matrix))
             return solver(matrix, *rest, **named)
 
