@@ -82,7 +82,8 @@ class Local:
         """df/dx times the state scale: derivatives in scaled unknowns, (n, n)."""
         if self._jac is None:
             jac, scale = self._linearize().jac, self.problem.state_scale
-            self._jac = jac * scale if isinstance(jac, np.ndarray) else scaled(jac, columns=scale)
+            full, same = isinstance(jac, np.ndarray), bool(np.all(scale == 1.0))  # of hinges it is kept once only
+            self._jac = jac if same else jac * scale if full else scaled(jac, columns=scale)
         return self._jac
 
     @property
@@ -99,6 +100,10 @@ class Local:
     def par(self) -> Array:
         """df/dp in physical units, (n, k)."""
         return self._linearize().par
+
+    def forget_pencil(self) -> None:
+        """Drop M, C and K, which are computed anew when they are asked for."""
+        self._pencil = None
 
     @property
     def pencil(self) -> Pencil:
