@@ -82,7 +82,8 @@ class Local:
         """df/dx times the state scale: derivatives in scaled unknowns, (n, n)."""
         if self._jac is None:
             jac, scale = self.linearization.jac, self.problem.state_scale
-            self._jac = jac * scale if isinstance(jac, np.ndarray) else scaled(jac, columns=scale)
+            full, same = isinstance(jac, np.ndarray), bool(np.all(scale == 1.0))  # of hinges it is kept once only
+            self._jac = jac if same else jac * scale if full else scaled(jac, columns=scale)
         return self._jac
 
     @property
@@ -103,6 +104,10 @@ class Local:
     def par(self) -> Array:
         """df/dp in physical units, (n, k)."""
         return self.linearization.par
+
+    def forget_pencil(self) -> None:
+        """Drop M, C and K, which are computed anew when they are asked for."""
+        self._pencil = None
 
     @property
     def pencil(self) -> Pencil:
@@ -241,11 +246,7 @@ class System:
         return self.problem.residuals_along(states, self.base, columns)
 
     def _aux(self, y: Array) -> list[Array]:
-        parts, at = [], len(self.free)
-        for c in self.conditions:
-            parts.append(y[at : at + len(c.aux)])
-            at += len(c.aux)
-        return parts
+        return [y[at : at + len(c.aux)] for c, at in zip(self.conditions, map(self.place, self.conditions), strict=True)]
 
     def place(self, condition: Condition) -> int:
         """Return where in y the auxiliary unknowns of a condition begin."""

@@ -64,7 +64,14 @@ def verdict_at(holds: tuple[int, int], s: Spectrum) -> tuple[str, int]:
 
 def spectrum_of(point: CurvePoint) -> Spectrum:
     """Return the spectrum at a point, computed once."""
-    return SPECTRUM.of(point, lambda: local_spectrum(point.local))
+
+    def found() -> Spectrum:
+        s = local_spectrum(point.local)
+        if point.local.problem.n > _MANY:
+            point.local.forget_pencil()
+        return s
+
+    return SPECTRUM.of(point, found)
 
 
 def negative_stiffness(point: CurvePoint) -> int | None:
