@@ -246,7 +246,11 @@ class System:
         return self.problem.residuals_along(states, self.base, columns)
 
     def _aux(self, y: Array) -> list[Array]:
-        return [y[at : at + len(c.aux)] for c, at in zip(self.conditions, map(self.place, self.conditions), strict=True)]
+        parts, at = [], len(self.free)
+        for c in self.conditions:
+            parts.append(y[at : at + len(c.aux)])
+            at += len(c.aux)
+        return parts
 
     def place(self, condition: Condition) -> int:
         """Return where in y the auxiliary unknowns of a condition begin."""
