@@ -47,7 +47,7 @@ test: env ## lint, rooms, types and tests
 	$(BIN)/mypy
 	$(BIN)/pytest -q -n auto --dist loadfile --no-loadscope-reorder
 
-test-slow: env ## tests of 0.4 s or more
+test-slow: env ## tests of a quarter of a second or more
 	$(BIN)/pytest -q -n auto --dist loadfile --no-loadscope-reorder -m "slow and not long and not shaken and not thirdparty and not browser"
 
 test-long: env ## the tests that take minutes

@@ -19,6 +19,7 @@ def test_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> N
     assert capsys.readouterr().out == f"mjcont {mc.__version__}\n"
 
 
+@pytest.mark.slow
 def test_help_loads_nothing_that_is_slow() -> None:
     slow = {"matplotlib", "mujoco", "scipy", "h5py"}
     code = f"import sys, mjcont.commands.cli as c; c.parser(); sys.exit(bool({slow} & sys.modules.keys()))"

@@ -121,6 +121,7 @@ def requests(monkeypatch: pytest.MonkeyPatch) -> list[tuple[float, float]]:
     return seen
 
 
+@pytest.mark.slow
 def test_the_gear_is_never_asked_for_a_force_beyond_its_bounds(monkeypatch):
     # the points before the longest steps lie close together here
     gear = mc.Mechanism.from_xml("nose_gear")

@@ -132,6 +132,7 @@ def test_with_many_links_the_buckling_load_tends_to_eulers():
         assert 1.0 - point["P"] / euler == pytest.approx(math.pi**2 / (48.0 * count**2), rel=1e-2)
 
 
+@pytest.mark.slow
 def test_under_its_own_weight_a_column_buckles_at_the_generalised_eigenvalue():
     # masses m at the upper end of each link: link i carries N - i + 1 of them
     count, weight = 4, 0.1 * 9.81

@@ -48,6 +48,7 @@ def test_switching_at_a_transcritical_point_gives_both_lines():
     assert slanted["mu"][[0, -1]] == pytest.approx([-1.0, 1.0], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_stability_changes_hands_at_a_transcritical_point():
     for branch in mc.switch_branches(branch_of(transcritical).point("BP1")):
         on_zero = np.ptp(branch["x"]) < 1e-9
@@ -56,6 +57,7 @@ def test_stability_changes_hands_at_a_transcritical_point():
         assert set(branch.stability[after]) == ({"unstable"} if on_zero else {"stable"})
 
 
+@pytest.mark.slow
 def test_a_switched_branch_carries_its_branch_point_in_its_place():
     for branch in mc.switch_branches(branch_of(transcritical).point("BP1")):
         (point,) = branch.special_points
@@ -135,12 +137,14 @@ def test_the_mixed_branches_of_two_modes_follow_their_closed_form():
         assert branch["mu"] - 2.0 == pytest.approx(y2 + 0.5 * x2, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_several_starts_on_one_branch_give_it_once():
     starts = [{"mu": -0.5}, {"mu": 0.5}, {"mu": -0.7}]
     diagram = mc.bifurcation_diagram(pitchfork(), "mu", bounds=(-1.0, 1.0), starts=starts)
     assert len(diagram) == 2
 
 
+@pytest.mark.slow
 def test_starts_on_branches_that_nothing_connects_give_both():
     field = mc.VectorField(
         lambda u, p: [-(u[0] ** 2 - 1.0) * (u[0] - 2.0 + 0.1 * p["mu"])], [1.0], {"mu": 0.0}, names=["x"]
@@ -198,6 +202,7 @@ def test_the_branches_of_a_diagram_do_not_depend_on_the_step(ds_max):
 # -- mistakes -------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_only_branch_points_have_branches_to_switch_to():
     field = mc.VectorField(lambda u, p: [p["mu"] - u[0] ** 2], [1.0], {"mu": 1.0})
     fold = mc.continue_equilibria(field, "mu", bounds=(-1.0, 1.0)).point("LP1")

@@ -152,6 +152,7 @@ def test_the_contact_force_at_rest_is_that_of_the_statics(latch, branch):
     assert force[1:] == pytest.approx(np.zeros(5), abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("part", "opens"), [(0.995, False), (1.005, True)])
 def test_the_door_holds_below_the_release_load_and_flies_open_above(latch, branch, part, opens):
     release = load(0.0, *stiffness(latch))

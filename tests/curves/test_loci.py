@@ -259,6 +259,7 @@ def test_the_branch_point_of_the_pendulum_persists_in_the_stiffness_of_its_sprin
     assert locus.status == "at bound"
 
 
+@pytest.mark.slow
 def test_the_branch_point_of_the_pendulum_does_not_persist_when_its_spring_is_turned(pendulum):
     locus = mc.continue_special(upright(pendulum).point("BP1"), "rest", bounds=(-0.3, 0.3))
     assert locus.status == "stopped"
@@ -306,6 +307,7 @@ def test_a_fold_curve_of_the_overcentre_passes_the_reference(overcentre_folds, k
     assert math.degrees(point["theta_1"]) == pytest.approx(angle, abs=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", [UPPER, LOWER])
 def test_a_fold_curve_of_the_overcentre_ends_at_the_reference_for_8_newtons_per_metre(overcentre_folds, which):
     locus = overcentre_folds(which)

@@ -23,6 +23,7 @@ def test_a_zero_at_the_start_or_on_a_bound_is_found_once(value):
     assert [(p.label, p["la"]) for p in branch.special_points] == [("UZ1", pytest.approx(value, abs=1e-12))]
 
 
+@pytest.mark.slow
 def test_a_branch_point_on_which_a_point_lies_is_found_once():
     """The orientation vanishes there to the last bit; x (la - x) = 0 at la = 0, met by steps of a hundredth."""
     crossing = scalar(lambda x, p: x * (p["la"] - x), 0.0, la=-0.5)

@@ -207,6 +207,7 @@ def test_pp2_has_the_published_special_points_to_1e_10(kind, expected):
     assert [p["p"] for p in near] == pytest.approx([expected] * len(near), rel=1e-10)
 
 
+@pytest.mark.slow
 def test_pp2_has_three_branches_each_reported_once():
     assert len(diagram_of_pp2()) == 3
 
@@ -388,6 +389,7 @@ def test_following_a_sparse_problem_of_1000_unknowns_over_its_fold_needs_no_dens
     assert [p.kind for p in branch.special_points] == ["LP"]
 
 
+@pytest.mark.slow
 def test_a_sparse_problem_of_1000_unknowns_comes_to_rest_without_dense_algebra(no_large_dense_algebra):
     point = mc.find_equilibrium(bratu(1000), {"la": 3.0})
     assert point.stability == "stable"

@@ -55,6 +55,7 @@ def test_points_and_special_points_are_rows_whatever_lies_between(model):
         assert fine.states[a.index] == pytest.approx(b.state, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ["overcentre", "nose_gear", "nose_gear_full"])
 def test_rows_follow_each_other_along_the_curve(model):
     chords = np.diff(scaled(branch_of(model)), axis=0)
@@ -80,6 +81,7 @@ def test_a_straight_curve_needs_no_rows_between():
     assert len(fine) == len(plain)
 
 
+@pytest.mark.slow
 def test_a_row_costs_little_more_than_two_evaluations():
     counts = []
     for chord in (math.inf, 3e-7):
@@ -122,6 +124,7 @@ def test_a_singular_matrix_costs_its_own_row_only():
     assert found[2] == pytest.approx(0.5 * np.eye(3))
 
 
+@pytest.mark.slow
 def test_rows_that_do_not_settle_are_left_out_and_a_note_says_so(monkeypatch):
     plain, fine = branch_of("overcentre", math.inf), branch_of("overcentre")
     assert not fine.notes
@@ -199,6 +202,7 @@ def test_an_interrupt_while_rows_are_laid_keeps_the_points(monkeypatch):
     assert [p.label for p in branch.special_points] == ["LP1", "LP2"]
 
 
+@pytest.mark.slow
 def test_what_a_branch_is_extended_by_has_rows_as_close():
     mechanism = mc.Mechanism.from_xml("overcentre")
     short = mc.continue_equilibria(mechanism, "F", (-20.0, 20.0), {"F": 15.0})

@@ -126,6 +126,7 @@ def test_n_weakly_coupled_bistable_stages_have_3_to_the_n_equilibria_2_to_the_n_
     assert len(found.stable) == 2**count
 
 
+@pytest.mark.slow
 def test_uncoupled_stages_rest_at_every_combination_of_minus_one_zero_and_one():
     found = find_equilibria(stages(3))
     expected = sorted(itertools.product((-1.0, 0.0, 1.0), repeat=3))
@@ -191,6 +192,7 @@ def test_a_free_body_on_bushes_rests_upright_and_in_three_half_turns():
 # -- vector fields and regions ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_three_copies_of_a_cubic_have_27_equilibria_8_of_them_stable():
     found = find_equilibria(cubes(3))
     assert len(found) == 27
@@ -198,6 +200,7 @@ def test_three_copies_of_a_cubic_have_27_equilibria_8_of_them_stable():
     assert all(math.isnan(p.energy) for p in found)
 
 
+@pytest.mark.slow
 def test_a_region_may_be_ranges_of_components_and_parameters():
     assert len(find_equilibria(cubes(2), region={"u[0]": (0.5, 2.0)})) == 3
     assert len(find_equilibria(cubes(2), region={"a": (2.0, 3.0)})) == 0

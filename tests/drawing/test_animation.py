@@ -114,6 +114,7 @@ def test_a_load_path_begins_and_ends_at_its_ends(loop, tmp_path):
     assert _red(pictures[-1])[1] > _red(pictures[0])[1]
 
 
+@pytest.mark.slow
 def test_a_history_goes_over_a_branch_with_a_parameter_that_it_holds(overcentre_branch, tmp_path):
     held = mc.simulate(mc.Mechanism.from_xml("overcentre"), duration=0.5, start={"F": 20.0})
     assert frames_of(track_of(held, "F", "theta_1"), 5)[3].x == 20.0

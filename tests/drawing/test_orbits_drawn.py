@@ -102,6 +102,7 @@ def test_an_orbit_against_time_needs_an_observable():
     assert line.get_xdata()[-1] == pytest.approx(flutter()[0].orbit.period)
 
 
+@pytest.mark.slow
 def test_a_movie_of_an_orbit_is_a_period_without_its_end(tmp_path):
     path = mc.animate(flutter()[-1], tmp_path / "orbit.gif", "q1", "q2", seconds=1.0, fps=8, size=(320, 160))
     with Image.open(path) as movie:

@@ -109,6 +109,7 @@ def test_the_marker_of_every_kind_is_seen(kind):
     assert np.count_nonzero(image.max(axis=-1) < 140) >= 5
 
 
+@pytest.mark.slow
 def test_several_branches_are_told_apart_by_colour_and_by_the_parameter_that_differs(cusp):
     other = mc.continue_equilibria(cusp.problem, "mu", bounds=(-1, 1), start={"lam": 0.5}, state=[-1.2])
     ax = plot(cusp, other, x="mu", y="x")

@@ -29,6 +29,7 @@ def without_display(*argv: object) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True, timeout=120, env=environment, check=False)
 
 
+@pytest.mark.slow
 def test_view_opens_the_pose_that_is_asked_for(stored: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     seen = []
     monkeypatch.setattr("mjcont.drawing.viewer.require_display", lambda: None)

@@ -87,6 +87,7 @@ def test_every_branch_of_a_diagram_is_a_curve():
     assert [c["id"] for c in document_of({"d": diagram})["curves"]] == ["d_1", "d_2"]
 
 
+@pytest.mark.slow
 def test_a_jump_of_a_load_path_is_rows_between_the_rest_lost_and_the_one_reached(branch):
     path = mc.load_path(branch, "F", [-50, 30], landing="creep")
     document = document_of({"path": path})

@@ -57,6 +57,7 @@ def test_a_page_without_a_document_asks_its_server_for_one():
     assert inner(page(None, ["'self'"]), 'id="document">') == "null"
 
 
+@pytest.mark.slow
 def test_to_html_writes_one_file_named_by_its_ending(tmp_path, overcentre_branch):
     written = mc.to_html(tmp_path / "page.html", overcentre_branch(k_j=1e3))
     assert written.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
@@ -75,6 +76,7 @@ def test_branches_are_named_by_what_differs_between_them(overcentre_branch):
     assert names == ["equilibria, k_j = 1000 N/m", "equilibria, k_j = 200 N/m"]
 
 
+@pytest.mark.slow
 def test_export_writes_a_page_or_a_table_as_the_ending_says(stored, tmp_path, capsys):
     assert main(["export", str(stored), "-o", str(tmp_path / "page.html"), "--title", "My gear"]) == 0
     assert main(["export", str(stored), "-o", str(tmp_path / "table.csv")]) == 0
@@ -82,6 +84,7 @@ def test_export_writes_a_page_or_a_table_as_the_ending_says(stored, tmp_path, ca
     assert (tmp_path / "table.csv").read_text(encoding="utf-8").startswith("F [N],")
 
 
+@pytest.mark.slow
 def test_an_exported_page_hands_out_a_study_that_finds_the_same_folds(stored, tmp_path, overcentre_branch):
     main(["export", str(stored), "-o", str(tmp_path / "page.html")])
     document = json.loads(inner((tmp_path / "page.html").read_text(encoding="utf-8"), 'id="document">'))

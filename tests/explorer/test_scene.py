@@ -77,6 +77,7 @@ def test_a_spring_runs_between_its_sites(pendulum_xml):
     assert scene.described()["tendons"][0]["spring"]
 
 
+@pytest.mark.slow
 def test_heavy_meshes_become_light_and_keep_their_size():
     n = 60
     x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n))

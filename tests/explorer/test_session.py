@@ -79,6 +79,7 @@ def test_a_model_opens_with_a_branch_of_the_parameter_that_moves_it():
         session.undo()
 
 
+@pytest.mark.slow
 def test_a_result_opens_as_it_is_and_its_study_computes_it_again(tmp_path, overcentre_branch):
     branch = overcentre_branch(k_j=800.0)
     branch.save(tmp_path / "upper.h5")
@@ -91,6 +92,7 @@ def test_a_result_opens_as_it_is_and_its_study_computes_it_again(tmp_path, overc
         assert one["F"] == pytest.approx(other["F"], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_zeros_of_a_stored_branch_are_found_again(tmp_path):
     mechanism = mc.Mechanism.from_xml("overcentre")
     mc.continue_equilibria(mechanism, "F", (-50, 50), {"F": 50}, zeros={"theta_1": 0.0}).save(tmp_path / "upper.h5")
@@ -108,6 +110,7 @@ def test_orbits_of_a_file_are_shown_but_nothing_goes_on_from_them(tmp_path):
         session.add("histories", {"row": row("flutter", 0)})
 
 
+@pytest.mark.slow
 def test_a_result_that_no_table_computes_is_shown_and_asked_on_from_its_rows(tmp_path, overcentre_branch):
     mc.load_path(overcentre_branch(k_j=1000.0), "F", [-50, 0], landing="creep").save(tmp_path / "my path.h5")
     session = Session(opened(str(tmp_path / "my path.h5")), lambda event: None)
@@ -176,6 +179,7 @@ def test_a_row_that_has_no_label_becomes_a_start_and_a_state(session):
     assert session.now.parents["equilibria"] == "rest"
 
 
+@pytest.mark.slow
 def test_a_motion_from_an_unstable_row_leaves_it_though_nobody_asks_for_a_nudge(session):
     place = row("rest", unstable_row(session))
     (history,) = session.add("histories", {"row": place, "duration": 3}).values()

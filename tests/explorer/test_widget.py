@@ -73,6 +73,7 @@ def test_the_study_can_be_read_in_the_notebook(echoing):
     assert tomllib.loads(explorer.study) == {"model": "overcentre"}
 
 
+@pytest.mark.slow
 def test_a_widget_that_is_closed_or_forgotten_ends_its_session(echoing):
     first, second = Explorer("overcentre"), Explorer("overcentre")
     first.close()

@@ -113,6 +113,7 @@ def test_where_a_derivative_leaves_its_domain_it_is_no_number():
 # -- what they are for ---------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_curve_with_all_derivatives_has_the_points_of_one_without():
     plain = mc.continue_equilibria(field(), "a", (0.0, 2.0))
     exact = mc.continue_equilibria(field(jacobian=jacobian, dfdp=dfdp, second=second, third=third), "a", (0.0, 2.0))

@@ -26,6 +26,7 @@ def test_the_hopf_point_is_where_the_page_says(names):
     assert names["hopf"]["B"] == pytest.approx(5.0, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_given_derivatives_give_the_coefficient_of_differences(names):
     plain = names["mc"].continue_equilibria(names["field"], "B", bounds=(1, 8)).point("HB1").coefficients["l1"]
     assert names["l1"] == pytest.approx(plain, rel=1e-6)

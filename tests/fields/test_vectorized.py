@@ -69,6 +69,7 @@ def test_time_comes_with_the_states():
     assert own.rates(np.zeros((3, 1)), [own.values()] * 3, times)[:, 0] == pytest.approx(np.cos(times))
 
 
+@pytest.mark.slow
 def test_the_curve_is_that_of_the_plain_function():
     curves = [mc.continue_equilibria(field(vectorized=v), "D", (0.0, 0.6)) for v in (True, False)]
     batched, plain = (curve.special_points for curve in curves)

@@ -129,6 +129,7 @@ def test_starts_are_counted_that_end_at_one_design():
     assert found.starts == (2, 2)
 
 
+@pytest.mark.slow
 def test_points_and_diagrams_are_there_before_and_after():
     found = hill_design("LP1.la == 0.5")
     assert found.points_before["LP1"]["la"] == pytest.approx(0.83, rel=1e-9)

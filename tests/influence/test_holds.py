@@ -75,6 +75,7 @@ def test_a_joint_that_no_control_pushes_is_named_with_its_force(pendulum_xml):
     assert "no control holds this pose: elbow is left with" in found.message
 
 
+@pytest.mark.slow
 def test_bushes_yield_until_they_carry_the_load_of_a_keyframe():
     gear = mc.Mechanism.from_xml("nose_gear")
     found = mc.hold(gear, "uplock_above", controls=["F_ret"])
@@ -93,6 +94,7 @@ def test_an_observable_is_held_and_the_rest_of_the_state_follows():
     assert unbalanced(gear, found)[0] < 1e-6
 
 
+@pytest.mark.slow
 def test_controls_that_load_it_least_are_taken_where_those_of_least_norm_make_bushes_give_way():
     gear = mc.Mechanism.from_xml("nose_gear")
     found = mc.hold(gear, "uplock_above")

@@ -51,6 +51,7 @@ def wave_fold(label="LP1"):
 # -- following --------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_fold_is_followed_to_where_its_closed_form_has_it():
     found = mc.follow_point(hill_fold(), {"p": -2.0, "q": 1.0})
     assert found.reached

@@ -60,6 +60,7 @@ def test_gravity_compensation_carries_its_share_of_the_weight(share):
         assert mechanism.residual(np.array([q]), mechanism.values()) == pytest.approx([expected], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_polynomial_spring_folds_where_its_force_turns():
     """Force a x + b x^2 + c x^3, snapping through where a + 2 b x + 3 c x^2 = 0."""
     a, b, c = 100.0, -300.0, 200.0

@@ -106,6 +106,7 @@ def test_the_buckled_chain_on_ball_joints_has_the_angles_of_the_one_on_hinges(gu
     assert np.linalg.norm(buckled.states[:, :4], axis=1) == pytest.approx(np.ones(len(buckled)), abs=1e-14)
 
 
+@pytest.mark.slow
 def test_a_chain_on_ball_joints_hangs_where_its_energy_is_least():
     mechanism = mc.Mechanism.from_xml(ball_chain(guide=0.5, gravity=9.81))
     branch = mc.continue_equilibria(mechanism, "H", bounds=(0.0, 3.0), start={"P": -1.0})

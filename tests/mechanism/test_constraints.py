@@ -16,6 +16,7 @@ def moment(q: float, gravity: float) -> float:
     return q - gravity * math.sin(q)
 
 
+@pytest.mark.slow
 def test_a_stop_engages_where_the_closed_form_has_it():
     branch = mc.continue_equilibria(pendulum_with_stops(0.5), "M", bounds=(-5.0, 5.0))
     lower, upper = branch.of_kind("CO")
@@ -42,6 +43,7 @@ def test_a_branch_that_turns_back_as_a_stop_engages_is_a_non_smooth_fold():
     assert upper["M"] == pytest.approx(moment(UPPER, 2.0), abs=1e-7)
 
 
+@pytest.mark.slow
 def test_accelerations_vanish_at_equilibria_on_a_stop():
     mechanism = pendulum_with_stops(0.5)
     branch = mc.continue_equilibria(mechanism, "M", bounds=(-5.0, 5.0))

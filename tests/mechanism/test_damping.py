@@ -74,6 +74,7 @@ def test_a_muscle_resists_by_the_slope_of_its_force_velocity_curve(activation, j
     assert damping(mechanism, point.state, m=activation) == pytest.approx(2.0 * active / (optimum * prm[6]), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_motions_of_a_mass_on_a_muscle_decay_as_its_eigenvalues_say():
     mechanism = mc.Mechanism.from_xml(MASS_ON_MUSCLE.format(joint="", muscle=""))
     branch = mc.continue_equilibria(mechanism, "m", bounds=(0.1, 1.0), start={"m": 0.5})

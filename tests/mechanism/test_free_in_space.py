@@ -117,6 +117,7 @@ def test_a_free_mechanism_has_the_internal_state_of_the_held_one(pair):
         assert [a[n] for n in names] == pytest.approx([b[n] for n in names], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_free_truss_snaps_at_the_load_of_the_closed_form():
     branch = mc.continue_equilibria(mc.Mechanism.from_xml(truss(FREE)), "P", bounds=(-300.0, 300.0))
     snap = 2.0 * 1000.0 * 1.25 * (1.0 - 0.8 ** (2.0 / 3.0)) ** 1.5

@@ -337,6 +337,7 @@ def test_a_switch_is_on_or_off():
         mc.find_equilibrium(latched(), {"equality:latch.active": 0.5})
 
 
+@pytest.mark.slow
 def test_other_values_stay_while_a_field_of_the_model_varies_in_time():
     mechanism = slider('<motor name="u" joint="z"/>')
     inputs = {"joint:z.stiffness": ([0.0, 1.0], [100.0, 200.0])}

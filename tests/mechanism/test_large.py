@@ -166,6 +166,7 @@ def test_masses_that_could_touch_but_do_not_leave_matrices_as_they_are(small_one
         assert np.array_equal(one, other)
 
 
+@pytest.mark.slow
 def test_masses_that_touch_act_on_each_other(small_ones_are_sparse, monkeypatch):
     net = Net(4, 5, rest=0.01)
     thin = mc.Mechanism.from_xml(net.xml("enable"))

@@ -165,6 +165,7 @@ def test_sensors_and_pairs_of_a_geom_go_with_it(written):
     assert "touch" not in mechanism.observables
 
 
+@pytest.mark.slow
 def test_a_saved_branch_reloads_with_its_notes(written, tmp_path):
     branch = upright(mc.Mechanism.from_xml(written(model(COLLIDING))))
     again = mc.load(branch.save(tmp_path / "branch.h5"))

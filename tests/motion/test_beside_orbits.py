@@ -55,6 +55,7 @@ def test_what_a_field_does_not_take_is_named():
         mc.simulate(TURN, {"w": lambda t, seen: 0.0})
 
 
+@pytest.mark.slow
 def test_a_motion_on_an_orbit_stays_on_it():
     row = flutter()[-1]
     history = mc.simulate(row, tol=1e-4, integrator="RK4", timestep=0.02, samples=11)

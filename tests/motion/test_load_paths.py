@@ -90,6 +90,7 @@ def test_the_columns_run_along_the_whole_path(cycle):
     assert len(cycle["theta_1"]) == len(cycle.states) == len(cycle)
 
 
+@pytest.mark.slow
 def test_a_light_damper_gives_a_status_and_keeps_the_path_up_to_the_fold(overcentre):
     path = mc.load_path(overcentre, "F", [50.0, 0.0], {"c_sp": 0.01}, max_time=20.0)
     assert path.status == "no rest"

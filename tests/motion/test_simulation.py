@@ -174,6 +174,7 @@ def test_a_controller_is_sampled_every_control_step_and_held_between(pendulum_xm
     assert sorted(set(history["M"])) == list(range(1, 11))
 
 
+@pytest.mark.slow
 def test_a_controller_with_a_memory_starts_afresh_in_every_run(pendulum_xml):
     class Integral:
         total = 0.0

@@ -74,6 +74,7 @@ def test_a_scalar_field_jumps_at_airy_s_zero_times_the_rate_to_two_thirds(rate):
     assert jump.delay(-rate) == late
 
 
+@pytest.mark.slow
 def test_its_own_motion_runs_away_there():
     jump, rate = jumped(parabola, [-1.0], -1.0, 1.0), 0.01
 
@@ -105,6 +106,7 @@ def test_loads_that_change_together_are_told_in_the_first_one_s_unit():
     assert jump.delay(rate).shift == pytest.approx(AIRY * rate ** (2 / 3) / 1.5 ** (1 / 3), rel=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rate", [1e-6, 1e-2])
 def test_with_hardly_any_damping_the_power_is_four_fifths(rate):
     mass = 3.0

@@ -110,6 +110,7 @@ def test_a_hopf_point_on_which_a_point_of_the_curve_lies_is_a_regular_one(start,
     assert point.coefficients["l1"] == pytest.approx(-1.5, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_folds_without_damping_are_no_hopf_points_and_their_coefficient_is_refused_with_a_sentence():
     field = mc.VectorField(lambda u, p: [u[1], p["p"] - (u[0] ** 3 - 0.6 * u[0])], [-1.1, 0.0], {"p": -0.671})
     branch = mc.continue_equilibria(field, "p", bounds=(-1.0, 1.0))

@@ -31,6 +31,7 @@ def test_every_point_balances_the_forces_written_by_hand(k_j):
         assert np.abs(found).max() < 1e-9 + 1e-15 * k_j
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k_j", [1e3, 1e6])
 def test_points_lie_as_close_as_the_steps_ask(k_j):
     chords = np.diff(scaled(branch_of("overcentre", math.inf, k_j)), axis=0)
@@ -40,6 +41,7 @@ def test_points_lie_as_close_as_the_steps_ask(k_j):
     assert np.arccos(np.min(np.sum(chords[1:] * chords[:-1], axis=1))) < 3.0 * SPACING["angle"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("model", "parameter"), [("overcentre", "F"), ("nose_gear", "F_ret")])
 def test_steps_filled_together_lead_to_the_curve_of_steps_filled_one_by_one(model, parameter, monkeypatch):
     together = branch_of(model, math.inf)
@@ -71,6 +73,7 @@ def test_stability_is_that_of_the_eigenvalues_at_every_tenth_point(model):
             assert branch.stability[i] == ("unstable" if np.any(real > 0) else "stable")
 
 
+@pytest.mark.slow
 def test_eigenvalues_read_late_are_those_of_the_points():
     branch = branch_of("overcentre")
     for i in range(0, len(branch), 25):
@@ -153,6 +156,7 @@ def test_all_buckling_loads_within_one_long_step_are_found(links):
 # -- driven from outside ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_user_s_stop_is_asked_at_every_point():
     seen = []
 
@@ -185,6 +189,7 @@ def test_the_iterator_yields_the_points_of_the_branch():
     assert [p["F"] for p in points] == pytest.approx(branch["F"][::-1], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_user_zeros_inside_long_steps_are_located():
     mechanism = mc.Mechanism.from_xml("overcentre")
     branch = mc.continue_equilibria(mechanism, "F", BOUNDS, {"F": START}, zeros={"theta_1": 0.1})
@@ -196,6 +201,7 @@ def test_user_zeros_inside_long_steps_are_located():
 # -- what makes it cheap --------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_observables_read_side_by_side_are_those_read_one_by_one():
     branch = branch_of("nose_gear")
     values = [{**branch.fixed, "F_ret": f} for f in branch["F_ret"]]

@@ -180,6 +180,7 @@ def column_mjcf(b):
     </mujoco>"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("b", [0.1, 1.0])
 def test_first_lyapunov_coefficient_of_a_mechanism_is_that_of_unit_positions(b):
     column = mc.Mechanism.from_xml(column_mjcf(b))

@@ -63,6 +63,7 @@ def test_a_mechanism_goes_where_its_motion_would_come_to_rest():
     assert (point.stability, point.state[0]) == ("stable", pytest.approx(math.pi))
 
 
+@pytest.mark.slow
 def test_a_mechanism_that_drifts_names_its_pose():
     xml = """<mujoco><worldbody><body><joint type="slide" axis="0 0 1"/><geom size=".1"/></body></worldbody></mujoco>"""
     with pytest.raises(mc.StartError, match="the model's initial pose: the motion from the start"):

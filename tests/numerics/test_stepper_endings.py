@@ -136,6 +136,7 @@ def cost(name):
 CEILINGS = {"ab": (4866, 44.2), "brusselator": (2835, 34.2), "overcentre": (4050, 4.81)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CEILINGS)
 def test_a_branch_costs_no_more_evaluations_than_its_ceiling(name):
     assert cost(name)[0] <= CEILINGS[name][0]

@@ -63,6 +63,7 @@ def test_a_flipped_bit_anywhere_is_an_error(saved: Path) -> None:
             mc.load(saved)
 
 
+@pytest.mark.slow
 def test_a_file_that_lost_its_seal_is_an_error(saved: Path) -> None:
     data = saved.read_bytes()
     saved.write_bytes(data[: data.rindex(b"\nmjcont seal")])
@@ -70,6 +71,7 @@ def test_a_file_that_lost_its_seal_is_an_error(saved: Path) -> None:
         mc.load(saved)
 
 
+@pytest.mark.slow
 def test_a_number_changed_by_another_program_is_an_error(saved: Path) -> None:
     with h5py.File(saved, "r+") as f:
         f["columns/F"][3] = 30.17
@@ -157,6 +159,7 @@ def test_keys_of_different_names_differ_and_plain_names_are_their_own() -> None:
 SENSORS = ["/abs", "a", "a/b", ".", "a//b", "$b_$"]
 
 
+@pytest.mark.slow
 def test_sensors_of_any_name_go_into_files(pendulum_xml, tmp_path: Path) -> None:
     sensors = "".join(f'<jointpos name="{n}" joint="hip"/>' for n in SENSORS)
     text = pendulum_xml(joint='stiffness="20"', actuator='<motor name="u" joint="hip"/>', sensor=sensors)

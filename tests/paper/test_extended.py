@@ -76,6 +76,7 @@ def test_what_is_up_to_date_is_not_run_again_and_a_study_does_not_age_the_figure
     assert runs(out) == ["fig01", "fig01", "gale", "gale", "gale"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["fig01", "gale"])
 def test_only_runs_one(scripts, here, tmp_path, name):
     out = tmp_path / "out"

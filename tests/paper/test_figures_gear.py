@@ -78,6 +78,7 @@ def test_point_where_slices_exchange_branches_equals_the_reference(case):
     assert degrees_of(point, "theta_ov") == pytest.approx(-0.02692, abs=5e-6)
 
 
+@pytest.mark.slow
 @NINE
 def test_fp1_lies_above_overcentre_without_unlock_force_and_below_with_500_newton(case, load_factor, degrees):
     found = case(load_factor, degrees)
@@ -147,6 +148,7 @@ def test_high_load_needs_less_unlock_force_but_in_steep_descent(cusps):
     assert np.all(ratio[1:] < 0.95)
 
 
+@pytest.mark.slow
 def test_retraction_force_grows_more_than_fivefold_with_load(case):
     assert case(2.5, 0.0).fold["F_ret"] / case(0.5, 0.0).fold["F_ret"] == pytest.approx(5.118, abs=5e-4)
 

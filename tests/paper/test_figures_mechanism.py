@@ -137,6 +137,7 @@ def test_a_slower_load_gets_ahead_of_the_mechanism_by_less_with_the_power_two_th
     assert 0.62 < np.log10(fast / slow) < 0.70
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("label", "which"), [("LP2", 0), ("LP1", 1)])
 def test_folds_followed_to_soft_joints_equal_the_reference(heavy, label, which):
     locus = mc.continue_special(heavy.point(label), "k_j", (8.0, 1000.0))

@@ -102,6 +102,7 @@ def slowly(gear):
     return mc.load_path(gear, legs, keyframe="uplock_above")
 
 
+@pytest.mark.slow
 def test_the_retracting_gear_jumps_at_fp1_onto_the_locked_curve(gear, slowly):
     lock = slowly.jumps[0]
     assert lock.before["F_ret"] == pytest.approx(FP1, rel=1e-7)
@@ -168,6 +169,7 @@ def test_the_load_on_the_stop_is_the_moment_by_which_the_free_gear_is_out_of_bal
     assert rest["stop_load"] > 100.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("load_factor", [0.5, 1.0, 2.5])
 def test_the_spring_may_be_as_short_as_the_balance_at_the_stop_allows(stopped, along, load_factor):
     branch = along("l_us", 0.75, 1.25, load_factor=load_factor)
@@ -184,6 +186,7 @@ def test_without_a_spring_the_weight_holds_the_gear_on_its_stop(along):
     assert np.all(branch["theta_ov"] < STOP)
 
 
+@pytest.mark.slow
 def test_the_unlock_force_without_retraction_force_is_that_of_the_balance_at_the_stop(stopped, along):
     opens = corner(along("F_ul", -6000.0, 0.0))
     assert opens["F_ul"] == pytest.approx(load_at_the_stop(stopped, "F_ul", opens.state, -3000.0), rel=1e-6)

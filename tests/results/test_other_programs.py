@@ -120,6 +120,7 @@ def test_octave_loads_every_file(written: dict[str, Path], name: str) -> None:
         assert done.stdout.split() == sorted(f)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(OCTAVE is None, reason="needs Octave")
 def test_octave_reads_the_values_of_special_points(written: dict[str, Path]) -> None:
     file = written["vector_field_branch.h5"]

@@ -85,6 +85,7 @@ def test_a_longer_branch_computes_those_of_both_parts_where_they_are_read(expect
     assert not np.isnan(longer.eigenvalues).any()
 
 
+@pytest.mark.slow
 def test_a_branch_is_copied_and_pickled_with_all_its_eigenvalues(branch, expected):
     assert np.array_equal(copy.copy(branch).eigenvalues, expected)
     alone = replace(branch, problem=None)

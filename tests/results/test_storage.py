@@ -102,6 +102,7 @@ def test_a_loaded_branch_finds_its_points_at_a_value_without_anything_else(branc
     assert len(found) > 0
 
 
+@pytest.mark.slow
 def test_a_point_of_a_loaded_branch_is_a_start(saved):
     loaded = mc.load(saved)
     again = mc.continue_equilibria(loaded.problem, "F", bounds=(-50.0, 60.0), start=loaded.at(F=40.0)[0])
@@ -110,6 +111,7 @@ def test_a_point_of_a_loaded_branch_is_a_start(saved):
     )
 
 
+@pytest.mark.slow
 def test_a_branch_in_a_parameter_named_by_its_path_finds_its_points_when_loaded(tmp_path):
     mechanism = mc.Mechanism.from_xml("overcentre")
     path = "actuator:bush_C_z.biasprm[1]*-1"
@@ -264,6 +266,7 @@ def test_a_file_of_a_newer_version_is_an_error_that_says_to_upgrade(saved):
         mc.load(saved)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", [0.2, 0.5, 0.9])
 def test_a_file_cut_short_is_an_error(saved, part):
     data = saved.read_bytes()
@@ -282,6 +285,7 @@ def test_a_file_with_a_part_missing_is_an_error(saved, name):
         mc.load(saved)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["format_version", "kind", "free", "settings", "start_index"])
 def test_a_file_with_an_attribute_missing_is_an_error(saved, name):
     edit(saved, lambda f: f.attrs.__delitem__(name))

@@ -59,12 +59,14 @@ def test_a_study_computes_stores_and_draws_what_it_asks_for(tmp_path: Path) -> N
     np.testing.assert_array_equal(stored["theta_1"], branch["theta_1"])
 
 
+@pytest.mark.slow
 def test_a_study_may_ask_for_several_values_of_a_column(tmp_path: Path) -> None:
     study = load_study(write(tmp_path, GOOD + 'zeros = { theta_1 = [0, "10 deg"] }\n'))
     (branch,) = run_study(study, tmp_path)
     assert sorted(p["theta_1"] for p in branch.of_kind("UZ")) == pytest.approx([0.0, np.radians(10.0)], abs=1e-10)
 
 
+@pytest.mark.slow
 def test_folds_of_a_study_equal_the_reference(tmp_path: Path) -> None:
     (branch,) = run_study(load_study(write(tmp_path, GOOD)), tmp_path)
     assert branch.point("LP1")["F"] == pytest.approx(24.077406008, abs=1e-8)

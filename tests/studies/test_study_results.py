@@ -231,6 +231,7 @@ def test_a_path_a_certificate_and_a_barrier_are_stored_and_drawn(tmp_path: Path)
     assert len(branch) > 10
 
 
+@pytest.mark.slow
 def test_a_point_that_a_result_turns_out_not_to_have_is_named_and_what_came_before_is_kept(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -109,6 +109,7 @@ def test_a_variant_without_the_fold_fails_with_its_sentence_and_leaves_the_other
     np.testing.assert_array_equal(tables["all"]["fold.F"][[0, 2]], tables["few"]["fold.F"])
 
 
+@pytest.mark.slow
 def test_points_of_models_that_are_smooth_in_pieces_are_moved_one_by_one(tmp_path: Path) -> None:
     clamp = mc.Mechanism.from_xml("toggle_clamp")
     branch = mc.continue_equilibria(clamp, "M", bounds=(-30.0, 30.0), start={"M": 20.0}, keyframe="closed")
@@ -124,6 +125,7 @@ def test_a_model_with_large_meshes_is_not_copied_for_many_variants() -> None:
     assert mc.Mechanism.from_xml("overcentre").together(("F",)) > 1
 
 
+@pytest.mark.slow
 def test_cases_that_settle_side_by_side_are_not_followed_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
