@@ -306,10 +306,12 @@ def _unexplained(kind: str, rows: CurveRows, stability: Array, n_unstable: Array
     for i in np.flatnonzero(np.diff(n_unstable)).tolist():
         if rows.located[i] is rows.located[i + 1] is None and "marginal" not in stability[i : i + 2]:
             between = " and ".join(p.show(p.value(float(rows.coordinates[k, 0]))) for k in (i, i + 1))
-            found.append(
-                f"{abs(n_unstable[i + 1] - n_unstable[i])} eigenvalues pass the axis together between "
-                f"{p.name} = {between}: a point of higher multiplicity, not located"
-            )
+            count, where = abs(n_unstable[i + 1] - n_unstable[i]), f"between {p.name} = {between}"
+            if count == 1:
+                found.append(f"an eigenvalue passes the axis {where}: a point that was not located")
+            else:
+                found.append(f"{count} eigenvalues pass the axis together {where}: a point of higher multiplicity, "
+                             "not located")
     return found
 
 

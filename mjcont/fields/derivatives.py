@@ -16,7 +16,7 @@ import numpy as np
 from scipy import sparse
 
 from mjcont.errors import FunctionError, MjcontError, did_you_mean, leaves_domain
-from mjcont.fields.functions import raised
+from mjcont.fields.functions import numbers, raised
 from mjcont.fields.parameters import Arrays
 from mjcont.numerics.equations.problem import Array, Matrix
 
@@ -50,23 +50,26 @@ class Derivatives:
     def _called(self, what: str, *args: Any) -> Any:
         """Return what a function returns, None where it has no value."""
         try:
-            return getattr(self, what)(*args)
+            found = getattr(self, what)(*args)
         except MjcontError:
             raise
         except Exception as error:
             if leaves_domain(error):
                 return None
             raise raised(f"the {what} of {self.owner}", error) from error
+        if found is None:
+            raise FunctionError(f"the {what} of {self.owner} returned nothing: a `return` may be missing")
+        return found
 
     def _shaped(self, what: str, found: Any, shape: tuple[int, ...], more: str = "") -> Array:
         """Return numbers of a shape as floats."""
         try:
-            numbers = np.array(found, dtype=float)
+            own = numbers(f"the {what} of {self.owner}", found)
         except (TypeError, ValueError) as error:
             raise FunctionError(f"the {what} of {self.owner} returned no array of numbers: {error}") from error
-        if numbers.shape != shape:
-            raise self._misshapen(what, numbers.shape, shape, more)
-        return numbers
+        if own.shape != shape:
+            raise self._misshapen(what, own.shape, shape, more)
+        return own
 
     def _misshapen(self, what: str, found: tuple[int, ...], shape: tuple[int, ...], more: str = "") -> FunctionError:
         return FunctionError(f"the {what} of {self.owner} returned shape {found} for {self.n} unknowns{more}: expected "
@@ -82,7 +85,9 @@ class Derivatives:
         if sparse.issparse(found):
             if found.shape != square:
                 raise self._misshapen("jacobian", found.shape, square)
-            return sparse.csc_matrix(found, dtype=float)
+            entries = sparse.csc_matrix(found)
+            numbers(f"the jacobian of {self.owner}", entries.data)
+            return entries.astype(float)
         if not _operator(found):
             return self._shaped("jacobian", found, square)
         self._check_operator(found)

@@ -29,6 +29,29 @@ def raised(what: str, error: Exception, given: str = "") -> FunctionError:
     return FunctionError(f"{what} raised {type(error).__name__}{given}: {error}")
 
 
+def numbers(what: str, found: Any) -> Array:
+    """Return what a function of the user's own returned as floats, of any shape.
+
+    Raises
+    ------
+    FunctionError
+        If it is nothing, complex, or has fewer digits than doubles have.
+    TypeError, ValueError
+        If it is no array of numbers.
+    """
+    if found is None:
+        raise FunctionError(f"{what} returned nothing: a `return` may be missing")
+    given = np.asarray(found)
+    kind, digits = given.dtype.kind, given.dtype.itemsize
+    if kind == "c":
+        raise FunctionError(f"{what} returned complex numbers: return real ones, and NaN where it has no value")
+    if kind == "f" and digits < 8:
+        raise FunctionError(f"{what} returned {given.dtype}, whose digits are too few: return float64")
+    if kind == "O" and any(entry is None for entry in given.flat):
+        raise FunctionError(f"{what} returned None among its numbers")
+    return np.array(given, dtype=float)
+
+
 def takes_time(function: Callable[..., Any]) -> bool:
     """Whether a function must be given three arguments."""
     try:
@@ -59,7 +82,7 @@ def as_columns(what: str, found: Any, n: int, m: int) -> Array:
     if isinstance(found, list | tuple) and len(found) == n:
         found = [np.broadcast_to(entry, m) if np.ndim(entry) == 0 else entry for entry in found]
     try:
-        columns = np.array(found, dtype=float)
+        columns = numbers(what, found)
     except ValueError as error:
         shapes = ", ".join(str(np.shape(entry)) for entry in found)
         raise FunctionError(f"{what} returned entries of shapes {shapes} for {m} states at once: each must be a number "
@@ -136,7 +159,8 @@ class Evaluated:
         self._counted(1)
         try:
             p = self.arrays.seen(values)
-            found = np.array(self.function(x, p, time) if self.timed else self.function(x, p), dtype=float)
+            value = self.function(x, p, time) if self.timed else self.function(x, p)
+            found = numbers(f"the function of {self.owner}", value)
         except MjcontError:
             raise
         except Exception as error:
@@ -165,7 +189,7 @@ class Evaluated:
                 value = function(u, p, t) if timed else function(u, p)
                 # the user may fill one array, or one list, again and again
                 found.append(value.copy() if isinstance(value, np.ndarray) else tuple(value))
-            rows = np.array(found, dtype=float)
+            rows = numbers(f"the function of {self.owner}", found)
         except TimeUp:
             raise
         except Exception:  # one by one, to see which has no value

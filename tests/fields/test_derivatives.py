@@ -302,3 +302,37 @@ def test_a_right_derivative_that_differences_do_not_resolve_is_not_refused(f, ja
     own = mc.VectorField(f, [u], {"a": 0.5}, jacobian=jacobian)
     with np.errstate(all="ignore"):
         own.linearize(np.array([u]), {"a": 0.5}, ())
+
+
+# -- what is no number of full precision --------------------------------------------------------------------------
+
+SLIPS = {
+    "returned nothing": lambda found: None,
+    "returned complex numbers": lambda found: np.asarray(found) + 0.5j,
+    "returned float32": lambda found: np.asarray(found, dtype=np.float32),
+}
+
+
+@pytest.mark.parametrize("said", SLIPS)
+def test_a_function_that_returns_no_doubles_is_told(said):
+    slip = SLIPS[said]
+    with pytest.raises(mc.FunctionError, match=f"the function of hill {said}"):
+        mc.VectorField(lambda u, p: slip(f(u, p)), U, P, name="hill").residual(U, P)
+
+
+@pytest.mark.parametrize("said", SLIPS)
+@pytest.mark.parametrize("kind", [np.array, sparse.csr_array], ids=["dense", "sparse"])
+def test_a_jacobian_that_returns_no_doubles_is_told(said, kind):
+    def own(u, p):
+        found = SLIPS[said](jacobian(u, p))
+        return None if found is None else kind(found)
+
+    with pytest.raises(mc.FunctionError, match=f"the jacobian of hill {said}"):
+        field(jacobian=own).linearize(U, P, ())
+
+
+@pytest.mark.parametrize("what", ["second", "third"])
+def test_a_form_without_a_return_is_told(what):
+    along = np.eye(2)[[0, 1, 0][: 2 if what == "second" else 3]]
+    with pytest.raises(mc.FunctionError, match=f"the {what} of hill returned nothing"):
+        field(**{what: lambda *args: None}).derivative_along(U, P, *along)

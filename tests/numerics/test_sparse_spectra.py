@@ -141,3 +141,25 @@ def test_pairs_that_pass_are_told_by_the_number_of_unstable_ones():
     assert stable.pairs_passing(oscillates) == oscillates.pairs_passing(stable) == 1
     assert oscillates.pairs_passing(both) == stable.pairs_passing(folded) == 0
     assert oscillates.pairs_passing(folded) == 1  # a fold and a Hopf point in one step
+
+
+@pytest.mark.parametrize("n", [3, 20, 130, 200])
+def test_one_stiff_unknown_makes_nothing_symmetric(n):
+    decay = -np.linspace(0.01, 1.0, n)
+    decay[-1] = -1e8
+    found = of(sparse.diags([decay, np.ones(n - 1)], [0, 1]))  # triangular: its eigenvalues are the decay rates
+    assert (found.stability, found.n_unstable) == ("stable", 0)
+    assert found.eigenvalues[0] == pytest.approx(-0.01, abs=1e-6)
+
+
+def test_a_pair_beside_a_stiff_unknown_is_counted():
+    found = of(blocks(pair(1.0, 1.0), [[-1e9]]))
+    assert (found.stability, found.n_unstable) == ("unstable", 2)
+    assert found.eigenvalues[:2] == pytest.approx([1.0 - 1.0j, 1.0 + 1.0j])
+
+
+@pytest.mark.parametrize("n", [100, 200])
+def test_a_symmetric_matrix_whose_smallest_eigenvalues_drown_in_rounding_is_marginal(n):
+    decay = -np.logspace(-12, 8, n)
+    decay[3] = 1e-7
+    assert of(sparse.diags(decay)).stability == "marginal"

@@ -54,6 +54,7 @@ class Rightmost:
     unstable : how many lie right of it, for certain where `proven`, else at least.
     proven : whether no other one may.
     symmetric : whether the matrix is.
+    touching : whether one is known to lie on the axis within the noise, listed or not.
     """
 
     values: Array
@@ -61,6 +62,7 @@ class Rightmost:
     unstable: int
     proven: bool
     symmetric: bool
+    touching: bool = False
 
 
 def rightmost(jac: Any, symmetric: bool) -> Rightmost:
@@ -91,11 +93,12 @@ def _of_symmetric(jac: Any, size: float) -> Rightmost:
     """Return the eigenvalues of a symmetric matrix that are nearest zero, and how many are positive by its pivots."""
     noise = NOISE * size
     space = _Space(jac, size)
-    space.look(1e-3 * size / jac.shape[0], NEAREST)
-    told = _factored(jac, -noise)
+    space.look_near_zero()
+    told, below = _factored(jac, -noise), _factored(jac, noise)
     values = space.values()
     count = int(np.count_nonzero(values.real > noise)) if told is None else told[1]
-    return Rightmost(values, noise, count, told is not None, True)
+    touching = told is not None and below is not None and below[1] > told[1]
+    return Rightmost(values, noise, count, told is not None, True, touching)
 
 
 def _of_part(jac: Any, noise: float) -> tuple[Array, bool]:
@@ -105,7 +108,7 @@ def _of_part(jac: Any, noise: float) -> tuple[Array, bool]:
     balanced = _balanced(jac)
     size = float(abs(balanced).max())
     space = _Space(balanced, size)
-    space.look(1e-3 * size / jac.shape[0], NEAREST)
+    space.look_near_zero()
     proven = _prove(space, noise)
     if not proven and jac.shape[0] <= _DENSE:
         return eigenvalues(jac.toarray()), True
@@ -176,6 +179,13 @@ class _Space:
         if new.size and np.all(np.isfinite(new)):
             left, sizes, _ = np.linalg.svd(new, full_matrices=False)
             self.basis = np.linalg.qr(np.column_stack([self.basis, left[:, sizes > _NEW]]))[0]
+
+    def look_near_zero(self) -> None:
+        """Add the eigenvectors of some eigenvalues near zero: from nearer where many are small beside the largest."""
+        for place in (1e-3 * self.size / self.jac.shape[0], 10.0 * NOISE * self.size):
+            self.look(place, NEAREST)
+            if self.basis.size:
+                return
 
     def values(self) -> Array:
         """Return the eigenvalues that are known, complex."""
