@@ -308,7 +308,7 @@ def _unexplained(kind: str, rows: CurveRows, stability: Array, n_unstable: Array
             between = " and ".join(p.show(p.value(float(rows.coordinates[k, 0]))) for k in (i, i + 1))
             count, where = abs(n_unstable[i + 1] - n_unstable[i]), f"between {p.name} = {between}"
             if count == 1:
-                found.append(f"an eigenvalue passes the axis {where}: a point that was not located")
+                found.append(f"1 eigenvalue passes the axis {where}: a point that was not located")
             else:
                 found.append(f"{count} eigenvalues pass the axis together {where}: a point of higher multiplicity, "
                              "not located")
