@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass, field
 from functools import partial
@@ -52,6 +52,8 @@ class Found:
 Progress = Callable[[int, Found], None]
 # of work whose amount is known: done, all
 Amount = Callable[[float, float], None]
+# scaled distance from a special point within which a row is that point
+_SAME = 1e-9
 
 
 def make_point(problem: Model, x: Array, values: Values, kind: str = "", s: Spectrum | None = None) -> Point:
@@ -208,6 +210,10 @@ def build_branch(
     problem = model_of(system.problem)
     words, counts, spectra = rows.stability(partial(_judged, kind))
     stability, n_unstable = np.array(words, dtype="U8"), np.array(counts)
+    known = np.array([e is not None for e in rows.located])
+    for special, same in _same_points(rows, any(t.end.status is Status.CLOSED for t in traces)):
+        if known[special] and not known[same]:  # rounding would decide on it
+            stability[same], n_unstable[same], known[same] = stability[special], n_unstable[special], True
     base, unit_of = rows.values(0), units(problem)
     columns = _columns(rows, problem, unit_of)
     free = {p.name: (p.low, p.high) for p in system.free}
@@ -256,6 +262,18 @@ def _columns(rows: CurveRows, problem: Model, unit_of: Mapping[str, str]) -> dic
         if name not in columns:
             columns[name] = Column(name, unit_of[name], "observable", _frozen(measured[:, k]))
     return columns
+
+
+def _same_points(rows: CurveRows, closed: bool) -> Iterator[tuple[int, int]]:
+    """Yield special rows and rows beside them that are the same point: a start may be one, and curves close there."""
+    for i, e in enumerate(rows.located):
+        for k in (i - 1, i + 1) if e is not None else ():
+            if 0 <= k < len(rows):
+                at, beside = ((rows.states[m], rows.coordinates[m]) for m in (i, k))
+                if np.linalg.norm(rows.system.difference(*beside, *at)) <= _SAME:
+                    yield i, k
+    if closed:
+        yield from ((0, len(rows) - 1), (len(rows) - 1, 0))
 
 
 def _judged(kind: str, special: Located | None, s: Spectrum) -> tuple[str, int]:
@@ -308,7 +326,7 @@ def _unexplained(kind: str, rows: CurveRows, stability: Array, n_unstable: Array
             between = " and ".join(p.show(p.value(float(rows.coordinates[k, 0]))) for k in (i, i + 1))
             count, where = abs(n_unstable[i + 1] - n_unstable[i]), f"between {p.name} = {between}"
             if count == 1:
-                found.append(f"1 eigenvalue passes the axis {where}: a point that was not located")
+                found.append(f"an eigenvalue passes the axis {where}: a point that was not located")
             else:
                 found.append(f"{count} eigenvalues pass the axis together {where}: a point of higher multiplicity, "
                              "not located")

@@ -57,6 +57,14 @@ def test_an_isola_entered_at_a_fold_closes_with_both_folds(label):
     assert labels(branch) == ["LP1", "LP2"]
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("label", ["LP1", "LP2"])
+def test_a_fold_at_which_an_isola_begins_and_closes_is_marginal_in_each_of_its_rows(label):
+    branch = circle_branch(1e-3, start=circle_branch(1e-3).point(label))
+    assert [branch.stability[i] for i in (0, -1)] == ["marginal", "marginal"]
+    assert not branch.notes
+
+
 # -- no jumps -------------------------------------------------------------------------------------------------
 
 GAPS = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3]

@@ -90,7 +90,7 @@ def _branch(branch: mc.Branch, name: str) -> Iterator[tuple[str, str | Number]]:
     yield f"{name} points", _in_order(branch.special_points)
     yield f"{name} stability", _stretches(branch)
     yield f"{name} neutral saddles", str(len(branch.neutral_saddles))
-    yield f"{name} notes", "; ".join(n for n in branch.notes if not n[0].isdigit())  # numbers of rows and the like
+    yield f"{name} notes", "; ".join(n for n in branch.notes if "rows between points" not in n)  # whose number is free
     for p in branch.special_points:
         yield from _special(p, f"{name} {p.label}")
     for which, row, (word, _) in zip(("first", "last"), (0, -1), branch.ends, strict=False):

@@ -88,7 +88,7 @@ class Local:
 
     @property
     def linearization(self) -> Linearization:
-        """Return of the problem: f and its derivatives."""
+        """What the problem returned: f and its derivatives."""
         if self._lin is None:
             self._lin = self.problem.linearize(
                 self.x, self.values, self.wrt, accurate=self.accurate, ranges=self.ranges
